@@ -30,8 +30,8 @@ pub use input::{Builtin, Input, InputView, Listed, face_set, is_one_file, listed
 pub use job::{Remade, check_apart, real_path, refuse_existing};
 pub use packing::{Place, face_placement};
 pub use settings::{
-    Conversion, DepthKind, Existing, GeometrySettings, LayerSettings, LightLevel, LightNormalisation, LightSettings,
-    LimitSettings, NormalSpace,
+    BlurMethod, CameraMovement, Conversion, DepthKind, Existing, GeometrySettings, LayerSettings, LightLevel,
+    LightNormalisation, LightSettings, LimitSettings, MotionBlur, NormalSpace,
 };
 pub use source::{Disk, Files, InMemory, MemoryBudget, ViewFiles, existing_frames, peak_bytes, probe, read};
 pub use target::Picture;

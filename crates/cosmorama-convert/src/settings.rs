@@ -2,6 +2,7 @@ use std::sync::Arc;
 
 use cosmorama::filter::FilterKind;
 use cosmorama::lighting::Lobe;
+use cosmorama::motion::{Easing, Ramp, Shutter, Smoothness};
 use cosmorama::raster::{Depth, Primaries, Rgba};
 use cosmorama::sphere::{Angle, Orientation};
 use cosmorama_io::pending::Unfinished;
@@ -96,12 +97,59 @@ pub struct GeometrySettings {
     pub size: Option<Size>,
     /// Orientation of the output.
     pub orientation: Orientation,
+    /// Movement of the output's camera, which turns that orientation frame by frame.
+    pub camera: Option<CameraMovement>,
+    /// Blur of what the camera's movement moves; none, unless given.
+    pub blur: Option<MotionBlur>,
     /// Filter.
     pub filter: FilterName,
     /// Kernel of the filter.
     pub kernel: KernelName,
     /// Whether pixels are clamped to their texels; the kernel's own default, unless given.
     pub anti_ringing: Option<bool>,
+}
+
+/// Movement of a camera.
+#[derive(Clone, Debug, PartialEq)]
+pub enum CameraMovement {
+    /// Through the poses in a file, which [`cosmorama_io::CameraPath`] reads. A still input is converted to all frames of
+    /// the path.
+    Path {
+        /// Name of the file.
+        file: String,
+        /// Frames in a second, for time stamps.
+        fps: Option<f64>,
+        /// Movement from pose to pose.
+        smoothness: Smoothness,
+    },
+    /// From one orientation to another, over all frames.
+    Turn {
+        /// Yaw, pitch and roll in degrees.
+        angles: [Ramp; 3],
+        /// Field of view in degrees; the output's own, unless given.
+        fov: Option<Ramp>,
+        /// Rate of the turn.
+        easing: Easing,
+    },
+}
+
+/// Blur of what moves while a shutter is open.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MotionBlur {
+    /// Time of each frame's exposure.
+    pub shutter: Shutter,
+    /// Method by which it is found.
+    pub method: BlurMethod,
+}
+
+/// Method of motion blur.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum BlurMethod {
+    /// The footprint of each pixel is carried along the pixel's own path.
+    #[default]
+    Swept,
+    /// One ellipse for each pixel, as wide as the pixel and its path together (Greene 1986, section 9): an approximation.
+    Ellipse,
 }
 
 /// A map of a world's light, or a chain of them, one for each roughness.
@@ -212,6 +260,8 @@ impl Default for GeometrySettings {
             to: None,
             size: None,
             orientation: Orientation::IDENTITY,
+            camera: None,
+            blur: None,
             filter: FilterName(FilterKind::Ewa),
             kernel: KernelName::default(),
             anti_ringing: None,
@@ -286,6 +336,13 @@ impl Conversion {
     #[must_use]
     pub fn turned(mut self, yaw: Angle, pitch: Angle, roll: Angle) -> Self {
         self.geometry.orientation = Orientation::from_yaw_pitch_roll(yaw, pitch, roll);
+        self
+    }
+
+    /// Moves the output's camera.
+    #[must_use]
+    pub fn moved(mut self, camera: CameraMovement) -> Self {
+        self.geometry.camera = Some(camera);
         self
     }
 

@@ -57,4 +57,4 @@ pub use metadata::{
     SampleKind, TextChunk, Window,
 };
 pub use pto::{PtoError, PtoImage, PtoPanorama, PtoProject};
-pub use sequence::{FoundFrames, FrameList, FramePattern, Frames};
+pub use sequence::{CameraPath, CameraPathError, FoundFrames, FrameList, FramePattern, Frames, PathPose};

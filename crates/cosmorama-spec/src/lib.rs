@@ -41,7 +41,7 @@ mod size;
 mod spec;
 mod window;
 
-pub use angle::{Degrees, parse_degrees};
+pub use angle::{Degrees, parse_degrees, parse_ramp};
 pub use compression::CompressionLevel;
 pub use error::{SpecError, WordError, WordKind, did_you_mean, nearest};
 pub use filter::{FilterName, KernelName};

@@ -8,7 +8,7 @@ use cosmorama_spec::{
 };
 
 use super::ProgressStyle;
-use super::geometry::GeometryArgs;
+use super::geometry::{CameraArgs, GeometryArgs, ShutterArgs};
 use super::parse::compression::CompressionParser;
 use super::parse::listed;
 use super::{SEE_MORE, projections, with_examples};
@@ -43,15 +43,19 @@ pub(crate) struct ConvertArgs {
     pub(crate) output: String,
     #[command(flatten)]
     pub(crate) geometry: GeometryArgs,
+    #[command(flatten)]
+    pub(crate) camera: CameraArgs,
+    #[command(flatten)]
+    pub(crate) shutter: ShutterArgs,
     /// Write where each pixel looks, for other programs
     ///
     /// Instead of the picture, writes where in the input each of its pixels looks, for Nuke, Fusion or oiiotool to do the same:
     /// an OpenEXR file, red to the right, green up, 0 to 1, blue the part of a pixel that shows anything.
     #[arg(long, hide_short_help = true, help_heading = "Geometry")]
     pub(crate) st_map: bool,
-    /// auto (default), srgb, linear, bt1886, pq, hlg, gamma:G
+    /// auto (default), srgb, linear, bt1886, pq, hlg, …
     ///
-    /// How integer code values relate to light, in and out; float files are linear.
+    /// How integer code values relate to light, in and out; also gamma:G, as gamma:2.2. Float files are linear.
     #[arg(long, value_name = "T", default_value = "auto", value_parser = listed::transfer(), hide_possible_values = true, hide_default_value = true, help_heading = "Light")]
     pub(crate) transfer: TransferName,
     /// As --transfer, for the input alone, a float file too
@@ -108,7 +112,9 @@ pub(crate) struct ConvertArgs {
     /// #rrggbbaa, or r,g,b of linear light.
     #[arg(long, value_name = "COLOR", help_heading = "Light")]
     pub(crate) background: Option<Colour>,
-    /// What no view covers: error (default), transparent or a colour
+    /// Uncovered: error (default), transparent or a colour
+    ///
+    /// Pixels that look where no view of the input does.
     #[arg(long, value_name = "COLOR", default_value = "error", hide_default_value = true, help_heading = "Light")]
     pub(crate) missing: Missing,
     /// Which frames: 5, 1-10 or 1-3,5,7-20:2 [default: all]

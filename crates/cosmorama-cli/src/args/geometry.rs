@@ -1,10 +1,12 @@
-use clap::Args;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::{NonEmptyStringValueParser, PossibleValuesParser, TypedValueParser};
+use clap::{Args, ValueHint};
 use cosmorama::filter::LabelRule;
+use cosmorama::motion::{Easing, Ramp, ShutterCurve, Smoothness};
+use cosmorama_convert::BlurMethod;
 use cosmorama_spec::{FilterName, KernelName, Size, Spec};
 
 use super::parse::listed;
-use super::parse::number::degrees;
+use super::parse::number::{positive, ramp, zoom};
 
 /// Geometry and filter of a conversion, shared by `convert` and `explain`.
 #[derive(Clone, Debug, Args)]
@@ -26,14 +28,17 @@ pub(crate) struct GeometryArgs {
     #[arg(long, value_name = "WxH|N", allow_hyphen_values = true, help_heading = "Geometry")]
     pub(crate) size: Option<Size>,
     /// Turn the output to the right, in degrees
-    #[arg(long, value_name = "D", default_value_t = 0.0, value_parser = degrees, allow_negative_numbers = true, help_heading = "Geometry")]
-    pub(crate) yaw: f64,
+    ///
+    /// Or over the frames: A..B turns from A in the first frame to B in the last, as in --yaw 0..360 --frames 1-240: any number of whole turns, evenly
+    /// unless --easing is given. With a still input, --frames says which frames are made.
+    #[arg(long, value_name = "D", default_value = "0", value_parser = ramp, allow_hyphen_values = true, help_heading = "Geometry")]
+    pub(crate) yaw: Ramp,
     /// Turn the output up
-    #[arg(long, value_name = "D", default_value_t = 0.0, value_parser = degrees, allow_negative_numbers = true, help_heading = "Geometry")]
-    pub(crate) pitch: f64,
+    #[arg(long, value_name = "D", default_value = "0", value_parser = ramp, allow_hyphen_values = true, help_heading = "Geometry")]
+    pub(crate) pitch: Ramp,
     /// Turn the output's camera clockwise
-    #[arg(long, value_name = "D", default_value_t = 0.0, value_parser = degrees, allow_negative_numbers = true, help_heading = "Geometry")]
-    pub(crate) roll: f64,
+    #[arg(long, value_name = "D", default_value = "0", value_parser = ramp, allow_hyphen_values = true, help_heading = "Geometry")]
+    pub(crate) roll: Ramp,
     /// ewa (default), ewa-pyramid, point, bilinear, reference
     ///
     /// What a pixel averages: ewa all that it sees; ewa-pyramid the same from smaller copies where it holds many texels, in
@@ -57,6 +62,123 @@ pub(crate) struct GeometryArgs {
     /// All but slopes that go on to a rim where all texels confirm them: on, unless the kernel is light.
     #[arg(long, value_name = "on|off", action = clap::ArgAction::Set, value_parser = on_or_off, hide_short_help = true, help_heading = "Filter")]
     pub(crate) anti_ringing: Option<bool>,
+}
+
+/// Movement of the output's camera.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct CameraArgs {
+    /// Poses of a moving camera by frame: CSV or JSON
+    ///
+    /// Columns frame, yaw, pitch and roll in degrees, and fov if that changes; or frame, qw, qx, qy and qz: the rotation from the
+    /// camera's frame (x right, y up, z back) to the world's. Frames between are interpolated on the sphere. A still input is
+    /// converted to all frames of the path, or to those of --frames (docs/motion.md).
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new(), conflicts_with_all = ["yaw", "pitch", "roll", "fov", "easing"], help_heading = "Geometry")]
+    pub(crate) path: Option<String>,
+    /// Frames a second, where a path has time in seconds instead of frame
+    #[arg(long, value_name = "N", value_parser = positive, allow_hyphen_values = true, hide_short_help = true, help_heading = "Geometry")]
+    pub(crate) fps: Option<f64>,
+    /// From pose to pose of a path: slerp (default), or smooth, whose rate does not jump
+    #[arg(long, value_name = "CURVE", value_parser = path_curve(), hide_possible_values = true, hide_short_help = true, help_heading = "Geometry")]
+    pub(crate) path_curve: Option<Smoothness>,
+    /// Zoom from one field of view to another over the frames: A..B
+    ///
+    /// Measured as that of --to, which it replaces: of perspective (fov, vfov or dfov), pannini, fisheye, fulldome and
+    /// stereographic.
+    #[arg(long, value_name = "A..B", value_parser = zoom, allow_hyphen_values = true, hide_short_help = true, help_heading = "Geometry")]
+    pub(crate) fov: Option<Ramp>,
+    /// Rate of a turn A..B: linear (default), in (from rest), out (to rest), in-out
+    #[arg(long, value_name = "HOW", value_parser = easing(), hide_possible_values = true, hide_short_help = true, help_heading = "Geometry")]
+    pub(crate) easing: Option<Easing>,
+}
+
+/// Motion blur.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct ShutterArgs {
+    /// Motion blur: how long each frame is exposed
+    ///
+    /// A fraction of the time from frame to frame: 0.5 is a shutter of 180°. It is centred on the frame's time, unless --shutter-phase says otherwise. A path may begin before
+    /// the first frame and end after the last one; else the camera goes on as it moves there.
+    #[arg(long, value_name = "F", value_parser = shutter, allow_hyphen_values = true, help_heading = "Geometry")]
+    pub(crate) shutter: Option<f64>,
+    /// Part of the exposure that comes before the frame's time: centre (default), leading, trailing or 0 to 1
+    ///
+    /// leading is 0, from the frame's time on; trailing is 1, up to it.
+    #[arg(long, value_name = "P", value_parser = phase, allow_hyphen_values = true, hide_short_help = true, help_heading = "Geometry")]
+    pub(crate) shutter_phase: Option<f64>,
+    /// Light that passes: box (default), trapezoid (opens and closes in a quarter each), cosine
+    #[arg(long, value_name = "CURVE", value_parser = shutter_curve(), hide_possible_values = true, hide_short_help = true, help_heading = "Geometry")]
+    pub(crate) shutter_curve: Option<ShutterCurve>,
+    /// Way to blur: swept (default), each pixel along its own path; ellipse, fast and soft; none
+    #[arg(long, value_name = "HOW", value_parser = motion(), hide_possible_values = true, hide_short_help = true, help_heading = "Geometry")]
+    pub(crate) motion: Option<MotionKind>,
+}
+
+/// Way to blur.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum MotionKind {
+    /// No blur.
+    None,
+    /// Blur by a method.
+    By(BlurMethod),
+}
+
+/// Reads the time for which a shutter is open.
+fn shutter(text: &str) -> Result<f64, String> {
+    const LONGEST: f64 = 10.0;
+    let is_fraction = |fraction: &f64| (0.0..=LONGEST).contains(fraction);
+    text.parse().ok().filter(is_fraction).ok_or_else(|| {
+        "expected a fraction of the time from frame to frame, from 0 to 10, as 0.5 for a shutter of 180°".to_owned()
+    })
+}
+
+/// Reads the place of an exposure.
+fn phase(text: &str) -> Result<f64, String> {
+    match text {
+        "centre" | "center" => Ok(0.5),
+        "leading" => Ok(0.0),
+        "trailing" => Ok(1.0),
+        _ => text.parse().ok().filter(|part| (0.0..=1.0).contains(part)).ok_or_else(|| {
+            "expected centre, leading, trailing, or the part of the exposure before the frame's time, from 0 to 1"
+                .to_owned()
+        }),
+    }
+}
+
+/// Reads the light that a shutter lets through.
+fn shutter_curve() -> impl TypedValueParser<Value = ShutterCurve> {
+    let curve = |word: String| match word.as_str() {
+        "trapezoid" => ShutterCurve::Trapezoid,
+        "cosine" => ShutterCurve::Cosine,
+        _ => ShutterCurve::Box,
+    };
+    PossibleValuesParser::new(["box", "trapezoid", "cosine"]).map(curve)
+}
+
+/// Reads a way to blur.
+fn motion() -> impl TypedValueParser<Value = MotionKind> {
+    let kind = |word: String| match word.as_str() {
+        "none" => MotionKind::None,
+        "ellipse" => MotionKind::By(BlurMethod::Ellipse),
+        _ => MotionKind::By(BlurMethod::Swept),
+    };
+    PossibleValuesParser::new(["swept", "ellipse", "none"]).map(kind)
+}
+
+/// Reads the way from pose to pose.
+fn path_curve() -> impl TypedValueParser<Value = Smoothness> {
+    let curve = |word: String| if word == "smooth" { Smoothness::Smooth } else { Smoothness::Slerp };
+    PossibleValuesParser::new(["slerp", "smooth"]).map(curve)
+}
+
+/// Reads the rate of a turn.
+fn easing() -> impl TypedValueParser<Value = Easing> {
+    let easing = |word: String| match word.as_str() {
+        "in" => Easing::In,
+        "out" => Easing::Out,
+        "in-out" => Easing::InOut,
+        _ => Easing::Linear,
+    };
+    PossibleValuesParser::new(["linear", "in", "out", "in-out"]).map(easing)
 }
 
 /// Reads the rule by which a pixel of labels is chosen.

@@ -1,14 +1,18 @@
 //! Conversion of arguments to settings; all later code sees only these.
 
 use cosmorama::filter::FilterKind;
+use cosmorama::motion::{Ramp, Shutter};
 use cosmorama::raster::Depth;
 use cosmorama::sphere::{Angle, Orientation};
-use cosmorama_convert::{Conversion, Existing, ExplanationSettings, GeometrySettings, LayerSettings, LimitSettings};
+use cosmorama_convert::{
+    BlurMethod, CameraMovement, Conversion, Existing, ExplanationSettings, GeometrySettings, LayerSettings,
+    LimitSettings, MotionBlur,
+};
 use cosmorama_io::Compression;
 use cosmorama_spec::{CompressionLevel, FilterName};
 
 use super::convert::LimitArgs;
-use super::geometry::GeometryArgs;
+use super::geometry::{CameraArgs, GeometryArgs, MotionKind, ShutterArgs};
 use super::{ConvertArgs, ExplainArgs};
 
 impl From<ConvertArgs> for Conversion {
@@ -16,7 +20,7 @@ impl From<ConvertArgs> for Conversion {
         Self {
             input: args.input,
             output: args.output,
-            geometry: args.geometry.into(),
+            geometry: GeometrySettings { blur: args.shutter.into(), ..moved(args.geometry, args.camera) },
             st_map: args.st_map,
             transfer: args.transfer,
             in_transfer: args.in_transfer,
@@ -56,14 +60,36 @@ impl From<ExplainArgs> for ExplanationSettings {
     }
 }
 
+/// Returns the geometry of a camera that may move.
+fn moved(geometry: GeometryArgs, camera: CameraArgs) -> GeometrySettings {
+    let angles = [geometry.yaw, geometry.pitch, geometry.roll];
+    let moves = angles.iter().chain(&camera.fov).any(Ramp::moves);
+    let movement = match camera.path {
+        Some(file) => {
+            let smoothness = camera.path_curve.unwrap_or_default();
+            Some(CameraMovement::Path { file, fps: camera.fps, smoothness })
+        }
+        None if moves => {
+            Some(CameraMovement::Turn { angles, fov: camera.fov, easing: camera.easing.unwrap_or_default() })
+        }
+        None => None,
+    };
+    let still = GeometrySettings::from(geometry);
+    let orientation = if movement.is_some() { Orientation::IDENTITY } else { still.orientation };
+    GeometrySettings { orientation, camera: movement, ..still }
+}
+
+/// Returns the geometry of a camera that stands still, as it is at the beginning of a turn.
 impl From<GeometryArgs> for GeometrySettings {
     fn from(args: GeometryArgs) -> Self {
-        let [yaw, pitch, roll] = [args.yaw, args.pitch, args.roll].map(Angle::from_degrees);
+        let [yaw, pitch, roll] = [args.yaw, args.pitch, args.roll].map(|ramp| Angle::from_degrees(ramp.from));
         Self {
             from: args.from,
             to: args.to,
             size: args.size,
             orientation: Orientation::from_yaw_pitch_roll(yaw, pitch, roll),
+            camera: None,
+            blur: None,
             filter: args.labels.map_or(args.filter, |rule| FilterName(FilterKind::Labels(rule))),
             kernel: args.kernel,
             anti_ringing: args.anti_ringing,
@@ -74,6 +100,48 @@ impl From<GeometryArgs> for GeometrySettings {
 impl From<LimitArgs> for LimitSettings {
     fn from(args: LimitArgs) -> Self {
         Self { threads: args.threads, memory: args.memory }
+    }
+}
+
+impl From<ShutterArgs> for Option<MotionBlur> {
+    fn from(args: ShutterArgs) -> Self {
+        let MotionKind::By(method) = args.motion.unwrap_or(MotionKind::By(BlurMethod::default())) else { return None };
+        let phase = args.shutter_phase.unwrap_or(0.5);
+        let shutter = Shutter { fraction: args.shutter?, phase, curve: args.shutter_curve.unwrap_or_default() };
+        Some(MotionBlur { shutter, method })
+    }
+}
+
+impl ShutterArgs {
+    /// Returns an option that has no effect without a shutter, and why.
+    pub(crate) fn idle(&self) -> Option<String> {
+        let given = [
+            (self.shutter_phase.is_some(), "--shutter-phase"),
+            (self.shutter_curve.is_some(), "--shutter-curve"),
+            (matches!(self.motion, Some(MotionKind::By(_))), "--motion"),
+        ];
+        let (_, option) = given.into_iter().find(|(is_given, _)| *is_given && self.shutter.is_none())?;
+        Some(format!("{option} is for motion blur; give --shutter F, as in --shutter 0.5, or leave {option} out"))
+    }
+}
+
+impl CameraArgs {
+    /// Returns an option that has no effect without another, and why.
+    pub(crate) fn idle(&self, geometry: &GeometryArgs) -> Option<String> {
+        let turns = [geometry.yaw, geometry.pitch, geometry.roll].iter().chain(&self.fov).any(Ramp::moves);
+        if self.path.is_none() && self.fps.is_some() {
+            return Some(
+                "--fps is for a --path with times in seconds; leave it out: pictures have no frame rate; ffmpeg is told it when it \
+                 makes the video (docs/video.md)"
+                    .to_owned(),
+            );
+        }
+        if self.path.is_none() && self.path_curve.is_some() {
+            return Some("--path-curve is for the poses of a --path; leave it out, or give that".to_owned());
+        }
+        (self.easing.is_some() && !turns).then(|| {
+            "--easing is for a turn, as in --yaw 0..360, but nothing turns; leave it out, or give one".to_owned()
+        })
     }
 }
 

@@ -7,7 +7,7 @@ use clap::Error;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use cosmorama_spec::{Size, SpecError, SpecKind, WordError, WordKind, nearest};
 
-use super::{no_projection, unknown_option, unknown_verb};
+use super::{no_projection, spec_key, unknown_option, unknown_verb};
 use crate::args::{self, examples};
 use crate::console::say;
 
@@ -81,7 +81,7 @@ fn message(error: &Error, typed: &Typed) -> String {
                 None => unknown_verb::message(word),
             }
         }
-        ErrorKind::ValueValidation => value(error).unwrap_or_else(|| in_claps_words(error, typed)),
+        ErrorKind::ValueValidation => value(error, typed).unwrap_or_else(|| in_claps_words(error, typed)),
         ErrorKind::InvalidValue => choice(error).unwrap_or_else(|| in_claps_words(error, typed)),
         ErrorKind::InvalidUtf8 => format!(
             "'{}' is no text in UTF-8, as names of inputs and outputs must be; rename it, or make a link to it with a plain \
@@ -101,12 +101,17 @@ fn text(error: &Error, kind: ContextKind) -> Option<&str> {
 }
 
 /// Returns the message for a value that cannot be parsed.
-fn value(error: &Error) -> Option<String> {
+fn value(error: &Error, words: &Typed) -> Option<String> {
     let (option, typed) = (text(error, ContextKind::InvalidArg)?, text(error, ContextKind::InvalidValue)?);
     let cause = error.source()?;
     let what = format!("invalid value '{typed}' for '{option}'");
     if typed.is_empty() {
         return Some(format!("{what}: it is empty, as where a shell's variable is not set"));
+    }
+    // Where it does not change, it is a key.
+    let key = Some("fov").filter(|_| option.starts_with("--fov ") && !typed.contains(".."));
+    if let Some(advice) = key.and_then(|key| spec_key::advice(key, "--fov", words)) {
+        return Some(format!("{what}: expected two angles, as in 60..30; {advice}"));
     }
     if let Some(error) = cause.downcast_ref::<SpecError>() {
         if let SpecError::UnknownName { name, .. } = error

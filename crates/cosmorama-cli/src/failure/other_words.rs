@@ -119,7 +119,7 @@ const OF_OTHERS: [(&[&str], &str); 29] = [
     ),
     (&["dry-run", "n", "preview"], "cosmorama explain INPUT --to SPEC, which tells what a conversion will do"),
     (
-        &["fps", "framerate", "frame-rate", "r"],
+        &["framerate", "frame-rate", "r"],
         "nothing: pictures have no frame rate; ffmpeg is told it when it makes the video (docs/video.md)",
     ),
     (&["f", "vf", "filter-complex"], "--from SPEC and --to SPEC: ffmpeg's v360=e:flat is --from e --to flat"),

@@ -7,12 +7,16 @@ use cosmorama_convert::{Conversion, Diagnostic, Observer, Report, Stop, Work};
 
 use crate::args::{ConvertArgs, ProgressStyle};
 use crate::console::Console;
+use crate::failure::usage;
 use crate::pipe::Piped;
 use crate::progress::Progress;
 use crate::report;
 
 /// Converts, and reports the result.
 pub(super) fn run(args: ConvertArgs, console: &mut Console) -> Result<ExitCode> {
+    if let Some(idle) = args.camera.idle(&args.geometry).or_else(|| args.shutter.idle()) {
+        return Err(usage(idle));
+    }
     let (progress, as_json) = (args.progress, args.json);
     let piped = Piped::open(args, console)?;
     let conversion: Conversion = piped.args.clone().into();

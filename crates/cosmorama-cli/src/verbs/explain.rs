@@ -5,6 +5,7 @@ use std::process::ExitCode;
 use anyhow::Result;
 use cosmorama::camera::PixelRect;
 use cosmorama::explain::{Centre, Figures, Magnification, Report, ViewReport};
+use cosmorama::motion::Ramp;
 use cosmorama::render::Needs;
 use cosmorama::world::World;
 use cosmorama_convert::{Explanation, ExplanationSettings, Picture, check_apart, refuse_existing};
@@ -19,6 +20,10 @@ use crate::pipe::KeptStreams;
 
 /// Tells what a conversion will do.
 pub(super) fn run(mut args: ExplainArgs, console: &mut Console) -> Result<ExitCode> {
+    let angles = [args.geometry.yaw, args.geometry.pitch, args.geometry.roll];
+    if angles.iter().any(Ramp::moves) {
+        return Err(usage("explain tells of one picture; give --yaw, --pitch and --roll one angle each"));
+    }
     let mut kept = KeptStreams::default();
     args.input = args.input.map(|input| kept.input(&input)).transpose()?;
     let (output, overwrite, as_json, has_input) = (args.output.take(), args.overwrite, args.json, args.input.is_some());

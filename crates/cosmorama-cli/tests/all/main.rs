@@ -59,6 +59,7 @@ mod output {
 }
 
 mod sequence {
+    mod motion;
     mod resume;
     #[cfg(target_os = "linux")]
     mod sequence_memory;

@@ -48,10 +48,12 @@ impl Checked {
     fn each_file(&self, observer: &mut dyn Observer, make: impl Fn(&OutputFile) -> Result<()> + Sync) -> Result<()> {
         let Self { job, stages, settings, pool, .. } = self;
         let unfinished = &settings.unfinished;
-        let make =
-            |(index, path): &(usize, PathBuf)| make(&OutputFile { job, stages, unfinished, index: *index, path });
         let frames = &job.outputs.frames;
         for (done, FrameOutputs { frame, files }) in (1..).zip(frames) {
+            let (views, exposure) = (&job.views_in(job.pose(*frame).as_ref())?[..], &job.exposure(*frame)?[..]);
+            let make = |(index, path): &(usize, PathBuf)| {
+                make(&OutputFile { job, views, exposure, stages, unfinished, index: *index, path })
+            };
             pool.install(|| files.iter().try_for_each(make))?;
             tell_done(observer, *frame, (done, frames.len()))?;
         }
@@ -68,7 +70,7 @@ impl Checked {
         let from = settings.geometry.from.as_ref();
         let tally = warnings::Tally::default();
         let mut run = Run { job, engine, stages, pool, observer, diagnostics, from, tally, is_first: true, done: 0 };
-        run.tell(engine.told().to_vec());
+        run.tell(engine.told());
         let made = match &job.outputs.frames[..] {
             [] => Ok(()),
             [frame] => run.still(frame),
@@ -77,7 +79,8 @@ impl Checked {
                 stages.among(Stage::Filter, || sequence.run(&mut run))
             }
         };
-        let mut told = run.tally.warnings(job);
+        let mut told = engine.told();
+        told.extend(run.tally.warnings(job));
         // Maps of light are measured by frame.
         if job.lighting.is_none() {
             told.extend(too_bright(job, (None, 0), engine.writer().overflowed()));

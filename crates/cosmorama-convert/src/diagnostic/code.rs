@@ -104,6 +104,8 @@ pub enum Code {
     MapBase,
     /// A statement of a project is ignored.
     Project,
+    /// A path may not be what was meant, or has more than is used.
+    CameraPath,
     /// A file has several parts, of which one is read.
     Parts,
     /// Channels are not carried over.

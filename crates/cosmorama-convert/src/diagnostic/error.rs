@@ -4,7 +4,7 @@ use std::io::ErrorKind;
 use cosmorama::camera::CameraError;
 use cosmorama::layout::LayoutError;
 use cosmorama::world::WorldError;
-use cosmorama_io::{CalibrationError, IoError, PtoError};
+use cosmorama_io::{CalibrationError, CameraPathError, IoError, PtoError};
 use cosmorama_spec::SpecError;
 use thiserror::Error;
 
@@ -29,6 +29,9 @@ pub enum ConvertError {
     /// A calibration cannot be read.
     #[error(transparent)]
     Calibration(#[from] CalibrationError),
+    /// The path of a camera cannot be read.
+    #[error(transparent)]
+    Path(#[from] CameraPathError),
     /// A camera model does not make a view.
     #[error(transparent)]
     CameraModel(#[from] CameraError),
@@ -136,6 +139,7 @@ impl ConvertError {
         match self {
             Self::Settings(_) => true,
             Self::Io(IoError::NoSuchPart { .. } | IoError::NoSuchChannel { .. } | IoError::ChannelTwice { .. }) => true,
+            Self::Path(error) => error.is_of_rate,
             Self::At { error, .. } => error.is_of_settings(),
             _ => false,
         }
@@ -150,6 +154,7 @@ impl ConvertError {
             Self::Io(error) => of_file(error),
             Self::Project(error) => of_project(error),
             Self::Calibration(error) => of_calibration(error),
+            Self::Path(_) => Code::Malformed,
             Self::CameraModel(_) | Self::World(_) | Self::Layout(_) => Code::Geometry,
             Self::Spec(_) => Code::Settings,
         }

@@ -38,6 +38,14 @@ settings! {
     Pitch "pitch" PITCH,
     /// Clockwise rotation of the output's camera.
     Roll "roll" ROLL,
+    /// Path of the output's camera.
+    Path "path" PATH,
+    /// Field of view that changes.
+    Fov "fov" FOV,
+    /// Time for which a shutter is open.
+    Shutter "shutter" SHUTTER,
+    /// Method of motion blur.
+    Motion "motion" MOTION,
     /// Filter.
     Filter "filter" FILTER,
     /// Kernel of the filter.

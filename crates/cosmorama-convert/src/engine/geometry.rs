@@ -11,8 +11,8 @@ use crate::target::TargetView;
 /// Geometry of a job, compiled for each target view where that pays and fits into memory.
 pub(crate) struct Geometry {
     plans: Vec<Option<Plan>>,
-    /// Encoder from 15 bits to 8, for jobs with opaque 8-bit pictures in and out.
-    codec: Option<FixedCodec>,
+    /// Arithmetic of the plans.
+    arithmetic: Arithmetic,
     /// Energy balance.
     balance: Balance,
 }
@@ -34,38 +34,42 @@ fn anew() -> Diagnostic {
 }
 
 impl Geometry {
-    /// Compiles the geometry of a job, and returns it with its warnings.
-    pub(crate) fn compile(job: &ConvertJob, progress: &dyn Progress) -> Result<(Self, Vec<Diagnostic>), Stopped> {
+    /// Compiles the geometry of a job's views in one pose, and returns it with its warnings. It is kept by plans where that
+    /// pays: if the pose `is_repeated`, or serves further channels.
+    pub(crate) fn compile(
+        job: &ConvertJob,
+        (views, is_repeated): (&[TargetView], bool),
+        progress: &dyn Progress,
+    ) -> Result<(Self, Vec<Diagnostic>), Stopped> {
         let mut warnings = Vec::new();
+        let arithmetic = arithmetic(job);
         if job.lighting.is_some() {
-            let plans = job.target.views.iter().map(|_| None).collect();
-            return Ok((Self { plans, codec: None, balance: Balance::of(job, Vec::new(), &[]) }, warnings));
+            let plans = views.iter().map(|_| None).collect();
+            return Ok((Self { plans, arithmetic, balance: Balance::of((job, views), Vec::new(), &[]) }, warnings));
         }
-        let codec = codec(job);
-        let arithmetic = if codec.is_some() { Arithmetic::Fixed } else { Arithmetic::Float };
-        let groups = balance::groups(job);
+        let groups = balance::groups(job, views);
         // Balanced pictures need their plan, even if there is only one.
-        let is_kept = pays(job) || !groups.is_empty();
+        let is_kept = is_repeated || has_passes(job) || !groups.is_empty();
         let plans = if is_kept {
-            plans((job, progress), arithmetic, balance::bytes_of(job, &groups), &mut warnings)?
+            let taken = balance::bytes_of((job, views), &groups);
+            plans((job, views, is_repeated), (arithmetic, taken), progress, &mut warnings)?
         } else {
-            job.target.views.iter().map(|_| None).collect()
+            views.iter().map(|_| None).collect()
         };
         if groups.iter().flatten().any(|view| plans[*view].is_none()) {
             warnings.push(unbalanced());
         }
-        let balance = Balance::of(job, groups, &plans);
-        Ok((Self { plans, codec, balance }, warnings))
-    }
-
-    /// Returns the encoder from 15 bits to 8, if the job uses it.
-    pub(crate) fn codec(&self) -> Option<&FixedCodec> {
-        self.codec.as_ref()
+        let balance = Balance::of((job, views), groups, &plans);
+        Ok((Self { plans, arithmetic, balance }, warnings))
     }
 
     /// Returns the bytes that it holds.
     pub(crate) fn bytes(&self) -> u64 {
         self.plans.iter().flatten().map(|plan| plan.bytes() as u64).sum::<u64>() + self.balance.bytes()
+    }
+
+    fn plan(&self, index: usize, arithmetic: Arithmetic) -> Option<&Plan> {
+        self.plans[index].as_ref().filter(|_| self.arithmetic == arithmetic)
     }
 
     /// Renders a target view from light of any range over a background. With holes there is no balance; `last` belongs
@@ -79,7 +83,7 @@ impl Geometry {
         pool: &FramePool,
         last: &mut BalancedLight,
     ) -> Result<Image<Rgba>, Stopped> {
-        let plan = self.plans[index].as_ref().filter(|_| self.codec.is_none());
+        let plan = self.plan(index, Arithmetic::Float);
         let Some(plan) = plan else { return watched.render_over(texels, background) };
         let target = watched.resampler.target;
         let over = |texels: &[Rgba], background: Rgba| {
@@ -103,7 +107,7 @@ impl Geometry {
         (light, codec): (&FixedLight, &FixedCodec),
         pool: &FramePool,
     ) -> Result<Image<[u8; 3]>, Stopped> {
-        let plan = self.plans[index].as_ref().filter(|_| self.codec.is_some());
+        let plan = self.plan(index, Arithmetic::Fixed);
         let Some(plan) = plan else { return watched.render_fixed(light, codec) };
         let target = watched.resampler.target;
         let mut image = pool.take_image(target.width(), target.height());
@@ -117,21 +121,21 @@ fn whole<P>(image: Image<P>, Watched { progress, .. }: Watched) -> Result<Image<
     if progress.advance(1.0).is_break() { Err(Stopped) } else { Ok(image) }
 }
 
-/// Returns whether geometry would be used more than once: by several frames, or for further channels.
-fn pays(job: &ConvertJob) -> bool {
+/// Returns whether the geometry of one frame would be used more than once, for further channels.
+fn has_passes(job: &ConvertJob) -> bool {
     let layers = &job.layers;
     let filtered = layers.groups.iter().filter(|group| group.content != LayerContent::Labels).count();
-    job.outputs.frames.len() > 1 || filtered + usize::from(!layers.leaves_picture_out()) > 1
+    filtered + usize::from(!layers.leaves_picture_out()) > 1
 }
 
 /// Makes the plans of all target views, as far as they fit into memory beside what is `taken`.
 fn plans(
-    (job, progress): (&ConvertJob, &dyn Progress),
-    arithmetic: Arithmetic,
-    taken: u64,
+    (job, views, is_repeated): (&ConvertJob, &[TargetView], bool),
+    (arithmetic, taken): (Arithmetic, u64),
+    progress: &dyn Progress,
     warnings: &mut Vec<Diagnostic>,
 ) -> Result<Vec<Option<Plan>>, Stopped> {
-    let mut shares = Shares::new(progress, job.target.views.iter().map(|target| &target.view));
+    let mut shares = Shares::new(progress, views.iter().map(|target| &target.view));
     let left = job.memory.left_for_plan(&job.input, &job.target, rayon::current_num_threads());
     let (mut left, mut lacks_room) = (left.saturating_sub(taken), false);
     let plan_of = |target: &TargetView| {
@@ -144,17 +148,24 @@ fn plans(
         left = left.saturating_sub(plan.as_ref().map_or(0, Plan::bytes) as u64);
         Ok(plan)
     };
-    let plans = job.target.views.iter().map(plan_of).collect::<Result<_, Stopped>>()?;
-    if lacks_room && job.outputs.frames.len() > 1 {
+    let plans = views.iter().map(plan_of).collect::<Result<_, Stopped>>()?;
+    if lacks_room && is_repeated {
         warnings.push(anew());
     }
     Ok(plans)
 }
 
+/// Returns the arithmetic of a job's plans.
+pub(crate) fn arithmetic(job: &ConvertJob) -> Arithmetic {
+    if codec(job).is_some() { Arithmetic::Fixed } else { Arithmetic::Float }
+}
+
 /// Returns the integer codec of a job; `None` unless its pictures are opaque, of 8 bits, and fit 15-bit light.
-fn codec(job: &ConvertJob) -> Option<FixedCodec> {
+pub(crate) fn codec(job: &ConvertJob) -> Option<FixedCodec> {
     let light = &job.light;
     let is_possible = Arithmetic::Fixed.has_plan_of(job.filter.kind)
+        // The light of many moments is summed.
+        && !job.is_blurred
         // A factor of the balance may raise a texel above white.
         && !balance::is_asked_for(job)
         && light.channels == Channels::Rgb
@@ -175,7 +186,6 @@ fn codec(job: &ConvertJob) -> Option<FixedCodec> {
 mod tests {
     use std::ops::ControlFlow;
 
-    use cosmorama::raster::Transfer;
     use testkit::Dome;
 
     use super::*;
@@ -185,8 +195,7 @@ mod tests {
         let dome = Dome::new(64);
         let plan = dome.resampler().plan(Arithmetic::Fixed).expect("a plan");
         let expected = plan.apply_fixed(&dome.light, &dome.codec);
-        let codec = FixedCodec::new(&Transfer::Srgb, Rgba::BLACK).expect("sRGB has 8 bits");
-        let geometry = Geometry { plans: vec![Some(plan)], codec: Some(codec), balance: Balance::default() };
+        let geometry = Geometry { plans: vec![Some(plan)], arithmetic: Arithmetic::Fixed, balance: Balance::default() };
         let watched = || dome.resampler().watched(&|_: f64| ControlFlow::Continue(()));
         let codes = |pool: &FramePool| geometry.codes(0, watched(), (&dome.light, &dome.codec), pool).expect("pixels");
         let pool = FramePool::keeping(1 << 20);
@@ -201,7 +210,7 @@ mod tests {
         let texels: Vec<Rgba> = (0..dome.world.texel_count()).map(|texel| dome.light.rgba(texel)).collect();
         let plan = dome.resampler().plan(Arithmetic::Float).expect("a plan");
         let expected = plan.apply_over(&texels, Rgba::BLACK);
-        let geometry = Geometry { plans: vec![Some(plan)], codec: None, balance: Balance::default() };
+        let geometry = Geometry { plans: vec![Some(plan)], arithmetic: Arithmetic::Float, balance: Balance::default() };
         let left = pool.take_image::<Rgba>(64, 64);
         let place = left.pixels().as_ptr();
         pool.give_image(left);

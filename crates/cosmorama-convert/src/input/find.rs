@@ -1,5 +1,7 @@
 //! An input by its name: a world file, a Hugin project, or pictures.
 
+use std::path::Path;
+
 use cosmorama_io::FrameList;
 use cosmorama_spec::Spec;
 
@@ -7,7 +9,7 @@ use crate::diagnostic::{Diagnostic, Result};
 use crate::input::lists::{hugin, world_file};
 use crate::input::pictures::refuse_spec;
 use crate::input::{Input, Listed};
-use crate::source::{Access, DecodedPicture, Files, MemoryBudget};
+use crate::source::{Access, DecodedPicture, Files, MemoryBudget, ViewFiles};
 
 impl Input {
     /// Finds and probes the files of an input.
@@ -23,6 +25,11 @@ impl Input {
             return world_file::find(pattern, wanted, access, warnings);
         }
         Self::of_pictures(pattern, from, wanted, access, warnings)
+    }
+
+    /// Returns whether an input has a frame marker, or lists views that may have one.
+    pub(crate) fn may_be_sequence(pattern: &str) -> bool {
+        world_file::is_world_file(pattern) || ViewFiles::new(Path::new(pattern)).sequence().is_some()
     }
 }
 

@@ -63,7 +63,10 @@ impl Content {
         warnings: &mut Vec<Diagnostic>,
     ) -> Result<Input> {
         if self.has_files() {
-            return Input::find(&settings.input, geometry.from.as_ref(), settings.frames.as_ref(), access, warnings);
+            // A still under a moving camera has the camera's frames.
+            let is_still = geometry.camera.is_some() && !Input::may_be_sequence(&settings.input);
+            let wanted = settings.frames.as_ref().filter(|_| !is_still);
+            return Input::find(&settings.input, geometry.from.as_ref(), wanted, access, warnings);
         }
         check_input_options(settings)?;
         if filter(geometry, warnings) != FilterSettings::DEFAULT {
@@ -153,7 +156,7 @@ fn without_letters(target: &Target) -> Option<Diagnostic> {
 fn check_input_options(settings: &Conversion) -> Result<()> {
     let given: [(bool, Mark, &str); 6] = [
         (settings.geometry.from.is_some(), FROM, "it is a formula, with no projection of its own"),
-        (settings.frames.is_some(), FRAMES, "it has none"),
+        (settings.frames.is_some() && settings.geometry.camera.is_none(), FRAMES, "it has none"),
         (settings.in_transfer.is_some(), IN_TRANSFER, "it has no code values"),
         (settings.part.is_some(), PART, "it has none"),
         (!settings.channels.is_empty(), CHANNELS, "it has one picture"),

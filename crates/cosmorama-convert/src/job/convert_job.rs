@@ -1,8 +1,10 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use cosmorama::camera::View;
 use cosmorama::filter::{FilterSettings, Kernel};
 use cosmorama::lighting::PreparedLight;
+use cosmorama::motion::{Exposure, Moment, Pose};
 use cosmorama::raster::Rgba;
 use cosmorama::render::Resampler;
 use cosmorama::world::World;
@@ -10,18 +12,19 @@ use cosmorama_io::{Choice, Format};
 use cosmorama_spec::Missing;
 
 use super::Content;
+use super::gaps::Shot;
 use super::memory_needs::gathered_bytes;
 use super::options::{check_file_options, filter};
 use crate::colour::{LayerPlan, Light, check_choice, check_labels};
 use crate::detect::unless_damaged;
-use crate::diagnostic::{Diagnostic, Result};
+use crate::diagnostic::{Code, Diagnostic, MOTION, PATH, Result, SHUTTER, YAW, usage};
 use crate::input::Input;
 use crate::input::spec_files::st_map::settled;
 use crate::job::Outputs;
 use crate::job::coverage::{Coverage, whole_worlds};
-use crate::settings::{Conversion, LightSettings};
+use crate::settings::{BlurMethod, CameraMovement, Conversion, GeometrySettings, LightSettings};
 use crate::source::{Access, ChosenFiles, DecodedPicture, Files, MemoryBudget};
-use crate::target::{Target, TargetView, name_of_level, of_light, shape_warning};
+use crate::target::{Movement, Target, TargetView, name_of_level, of_light, shape_warning, time};
 
 /// A conversion, ready to run.
 pub(crate) struct ConvertJob {
@@ -33,6 +36,10 @@ pub(crate) struct ConvertJob {
     pub(crate) worlds: Vec<World>,
     /// Pictures to make.
     pub(crate) target: Target,
+    /// Movement of their camera.
+    pub(crate) movement: Option<Movement>,
+    /// Whether a shutter blurs some frame, so that light is summed.
+    pub(crate) is_blurred: bool,
     /// Filter.
     pub(crate) filter: FilterSettings,
     /// Transfer functions of both sides, and the outputs' channels and depth.
@@ -73,6 +80,32 @@ fn chosen(settings: &Conversion, content: Content) -> Arc<dyn Files> {
     Arc::new(ChosenFiles { files: Arc::clone(&settings.files), choice: Choice { part, channels, without_picture } })
 }
 
+/// Resolves the movement of the camera, which gives a still input its frames.
+fn move_camera(
+    settings: &Conversion,
+    geometry: &GeometrySettings,
+    (input, target): (&mut Input, &Target),
+    access: Access,
+    warnings: &mut Vec<Diagnostic>,
+) -> Result<Option<Movement>> {
+    if settings.light.is_some() && geometry.camera.is_some() {
+        return Err(usage(format!("maps of light have no camera that could move; leave {PATH} out")));
+    }
+    let frames = (&input.frames[..], settings.frames.as_ref());
+    let Some((movement, frames)) = Movement::resolve(geometry, target, frames, access, warnings)? else {
+        if geometry.blur.is_some() {
+            let message = format!("{SHUTTER} has no effect: the camera stands still; {PATH} or {YAW} A..B moves it");
+            warnings.push(Diagnostic::warning(Code::NoEffect, message));
+        }
+        return Ok(None);
+    };
+    input.frames = frames;
+    if let Some(CameraMovement::Path { file, .. }) = &geometry.camera {
+        input.beside.push(file.into());
+    }
+    Ok(Some(movement))
+}
+
 impl ConvertJob {
     /// Resolves the settings and checks everything that can be checked without decoding pixels.
     pub(crate) fn resolve(
@@ -105,6 +138,7 @@ impl ConvertJob {
         if levels > 1 {
             target = target.with_chain(&settings.output, geometry, levels)?;
         }
+        let movement = move_camera(settings, geometry, (&mut input, &target), access, warnings)?;
         warnings.extend(input.diagnostics());
         check_choice(settings, &input, warnings)?;
         warnings.extend(shape_warning(geometry, &target));
@@ -137,6 +171,8 @@ impl ConvertJob {
             input,
             worlds: Vec::new(),
             target,
+            movement,
+            is_blurred: false,
             filter,
             light,
             layers,
@@ -152,12 +188,14 @@ impl ConvertJob {
             let files = Arc::clone(&job.files);
             job.cover(warnings).map_err(|error| unless_damaged(&*files, first, error))?;
         }
+        job.find_blur(content, warnings)?;
         content.check_last(settings, format, job.light.depth, warnings)?;
         Ok(job)
     }
 
     /// Checks that the input covers the output, and that memory suffices.
     fn cover(&mut self, warnings: &mut Vec<Diagnostic>) -> Result<()> {
+        let shots = self.shots()?;
         let Self { input, target, filter, memory, .. } = self;
         let whole = whole_worlds(input, *memory)?;
         if let Some(lighting) = &self.lighting {
@@ -169,7 +207,8 @@ impl ConvertJob {
             (self.coverage, self.worlds) = (coverage, worlds);
             return Ok(());
         }
-        let (coverage, worlds) = Coverage::check(input, whole, target, filter, self.missing, warnings)?;
+        let (coverage, worlds) =
+            Coverage::check(input, whole, (target, shots.as_deref()), filter, self.missing, warnings)?;
         memory.check_frame(input, target)?;
         let levels = target.views.iter().map(|view| {
             let world = &worlds[view.world(worlds.len())];
@@ -179,6 +218,92 @@ impl ConvertJob {
         self.memory = memory.beside_channels(&mut self.layers, input, target)?;
         (self.coverage, self.worlds) = (coverage, worlds);
         Ok(())
+    }
+
+    /// Returns the camera's pose in a frame; `None` where it does not move.
+    pub(crate) fn pose(&self, frame: Option<u64>) -> Option<Pose> {
+        Some(self.movement.as_ref()?.pose(time(frame.unwrap_or_default())))
+    }
+
+    /// Returns the target's views in a pose.
+    pub(crate) fn views_in(&self, pose: Option<&Pose>) -> Result<Vec<TargetView>> {
+        match (&self.movement, pose) {
+            (Some(movement), Some(pose)) => movement.views(&self.target, pose),
+            _ => Ok(self.target.views.clone()),
+        }
+    }
+
+    /// Returns the views of all poses of a moving camera, with their frames: of an exposure, those of its ends and its middle.
+    fn shots(&self) -> Result<Option<Vec<Shot>>> {
+        let Some(movement) = &self.movement else { return Ok(None) };
+        let mut shots: Vec<(Vec<Pose>, Shot)> = Vec::new();
+        for frame in self.input.frames.iter().copied().flatten() {
+            let exposed = movement.blur.map_or_else(Vec::new, |blur| blur.shutter.division(time(frame)).to_vec());
+            let mut poses = vec![movement.pose(time(frame))];
+            poses.extend(exposed.into_iter().map(|time| movement.pose(time)));
+            poses.dedup();
+            if let Some((_, shot)) = shots.last_mut().filter(|(last, _)| *last == poses) {
+                shot.frames.push(frame);
+                continue;
+            }
+            let views = poses.iter().map(|pose| movement.views(&self.target, pose)).collect::<Result<Vec<_>>>()?;
+            shots.push((poses, Shot { frames: vec![frame], views: views.into_iter().flatten().collect() }));
+        }
+        Ok(Some(shots.into_iter().map(|(_, shot)| shot).collect()))
+    }
+
+    /// Finds out whether a shutter blurs any frame, and keeps memory for that.
+    fn find_blur(&mut self, content: Content, warnings: &mut Vec<Diagnostic>) -> Result<()> {
+        let Some(blur) = self.movement.as_ref().and_then(|movement| movement.blur) else { return Ok(()) };
+        if matches!(content, Content::StMap | Content::Directions(_)) {
+            let message =
+                format!("{SHUTTER} has no effect: numbers are not blurred, and are those of the frame's own time");
+            warnings.push(Diagnostic::warning(Code::NoEffect, message));
+            return Ok(());
+        }
+        if !content.has_files() && blur.method == BlurMethod::Ellipse {
+            return Err(usage(format!("{MOTION} ellipse averages texels, but a formula has none; leave it out")));
+        }
+        for frame in self.input.frames.clone() {
+            if self.moments(frame)?.is_some() {
+                self.is_blurred = true;
+                self.memory = self.memory.beside_sum(&self.input, &self.target)?;
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the moments of a frame's exposure; `None` where nothing moves, or nothing is blurred.
+    pub(crate) fn moments(&self, frame: Option<u64>) -> Result<Option<Vec<Moment>>> {
+        let Some((movement, blur)) = self.movement.as_ref().and_then(|movement| Some((movement, movement.blur?)))
+        else {
+            return Ok(None);
+        };
+        let frame = time(frame.unwrap_or_default());
+        let ends = movement.views_at(&self.target, &blur.shutter.division(frame))?;
+        let needed = |(index, target): (usize, &TargetView)| {
+            let views: Vec<View> = ends.iter().map(|views| views[index].view.clone()).collect();
+            let texel = self.worlds.get(target.world(self.worlds.len())).map_or(0.0, World::texel_pitch);
+            Exposure::moments_needed(&views, texel)
+        };
+        let count = match self.target.views.iter().enumerate().map(needed).max() {
+            None | Some(0 | 1) => return Ok(None),
+            Some(_) if blur.method == BlurMethod::Ellipse => Exposure::FEW,
+            Some(count) => count,
+        };
+        Ok(Some(blur.shutter.moments(frame, count)))
+    }
+
+    /// Returns the target's views at all moments of a frame's exposure, each with its part of the light; none where nothing is
+    /// blurred.
+    pub(crate) fn exposure(&self, frame: Option<u64>) -> Result<Vec<(Vec<TargetView>, f32)>> {
+        let moments = if self.is_blurred { self.moments(frame)? } else { None };
+        let exposed = |moment: &Moment| {
+            let pose = self.movement.as_ref().map(|movement| movement.pose(moment.time));
+            Ok((self.views_in(pose.as_ref())?, moment.weight as f32))
+        };
+        moments.iter().flatten().map(exposed).collect()
     }
 
     /// Returns the resampler for one of the target's views.

@@ -1,15 +1,14 @@
-use cosmorama::camera::{Canvas, PixelRect, View};
 use cosmorama::filter::FilterSettings;
 use cosmorama::raster::Rgba;
-use cosmorama::render::{Accuracy, Need, Needs};
 use cosmorama::sphere::Direction;
 use cosmorama::world::{Source, World, WorldView};
 use cosmorama_spec::{Missing, Size};
 
-use crate::diagnostic::{Code, ConvertError, Diagnostic, MISSING, PITCH, ROLL, Result, YAW, bail, failed_as};
+use super::gaps::{Shot, empty, find_gaps, find_gaps_of_shots};
+use crate::diagnostic::{Code, Diagnostic, MISSING, Result, bail, failed_as};
 use crate::input::{Input, InputView};
 use crate::source::MemoryBudget;
-use crate::target::{Target, TargetView};
+use crate::target::Target;
 
 /// Treatment of pixels that look where no view does.
 #[derive(Clone, Copy, Debug)]
@@ -42,11 +41,11 @@ fn check_sides(view: &InputView) -> Result<()> {
 
 impl Coverage {
     /// Compares what the target needs with what the input holds, before any pixel is computed. Also returns the worlds
-    /// that the files actually hold.
+    /// that the files actually hold. A moving camera takes several shots.
     pub(crate) fn check(
         input: &mut Input,
         nominal: Vec<World>,
-        target: &Target,
+        (target, shots): (&Target, Option<&[Shot]>),
         filter: &FilterSettings,
         missing: Missing,
         warnings: &mut Vec<Diagnostic>,
@@ -54,7 +53,10 @@ impl Coverage {
         let mut gaps = Vec::new();
         let count = nominal.len();
         for (index, (views, nominal)) in input.worlds.iter_mut().zip(&nominal).enumerate() {
-            gaps.extend(find_gaps(views, nominal, &target.of_world(index, count), filter, warnings)?);
+            gaps.extend(match shots {
+                None => find_gaps(views, nominal, &target.of_world(index, count), filter, warnings)?,
+                Some(shots) => find_gaps_of_shots(views, (nominal, index, count), shots, filter, warnings)?,
+            });
         }
         let coverage = match missing {
             _ if gaps.is_empty() => Self::Complete,
@@ -123,51 +125,6 @@ fn dark_side(world: &World) -> Option<String> {
     ))
 }
 
-/// Finds what is missing in the views of a world, and marks the views that are needed.
-fn find_gaps(
-    views: &mut [InputView],
-    nominal: &World,
-    targets: &[&TargetView],
-    filter: &FilterSettings,
-    warnings: &mut Vec<Diagnostic>,
-) -> Result<Vec<String>> {
-    if let [view] = views
-        && view.nominal.covers_sphere()
-        && view.mask.is_none()
-        && view.window.as_ref().is_some_and(|(held, _)| *held == view.nominal)
-    {
-        // A whole panorama lacks nothing, whatever the target needs.
-        view.wanted = true;
-        return Ok(Vec::new());
-    }
-    let geometry: Vec<View> = targets.iter().map(|target| target.view.clone()).collect();
-    let uncovered = |needs: &Needs| needs.uncovered.map(|gap| format!("{}: {gap}", targets[gap.target].name));
-    let needs = Needs::of(nominal, &geometry, filter, Accuracy::Bounds);
-    if needs.views.iter().any(|need| need.seen.is_some()) && views.iter().zip(&needs.views).all(holds) {
-        views.iter_mut().zip(&needs.views).for_each(|(view, need)| view.wanted = need.read.is_some());
-        return Ok(uncovered(&needs).into_iter().collect());
-    }
-    let needs = Needs::of(nominal, &geometry, filter, Accuracy::Exact);
-    let mut gaps = Vec::new();
-    for (view, need) in views.iter_mut().zip(&needs.views) {
-        view.wanted = need.read.is_some();
-        gaps.extend(shortfall(view, need));
-        warnings.extend(frayed(view, need));
-    }
-    gaps.extend(uncovered(&needs));
-    if !views.iter().any(|view| view.wanted && view.window.is_some()) {
-        gaps.push("nothing of what the input shows is in the output's field of view".to_owned());
-        return Err(empty(&gaps));
-    }
-    Ok(gaps)
-}
-
-/// Returns whether all that may be needed of a view is there.
-fn holds((view, need): (&InputView, &Need)) -> bool {
-    let held = view.window.as_ref().map(|(held, canvas)| rect(canvas, held));
-    need.read.is_none_or(|read| held.is_some_and(|held| held.contains(&read)))
-}
-
 /// Returns the world that the files hold, often equal to that of the whole pictures.
 fn held_world(views: &[InputView], nominal: World) -> Result<World> {
     let held = || views.iter().filter_map(InputView::present).map(|(view, _, held)| view.world_view(held.clone()));
@@ -181,66 +138,4 @@ fn held_world(views: &[InputView], nominal: World) -> Result<World> {
         return Ok(nominal);
     }
     Ok(nominal.with_views(held())?)
-}
-
-/// Returns the error for an input without any view, which cannot be filled up.
-fn empty(gaps: &[String]) -> ConvertError {
-    let gaps = gaps.join("\n  ");
-    let message =
-        format!("the output would be empty:\n  {gaps}\nturn it with {YAW}, {PITCH} and {ROLL}, or add the views");
-    failed_as(Code::Uncovered, message)
-}
-
-/// Describes what pixels of the output look at and the file does not hold.
-fn shortfall(view: &InputView, need: &Need) -> Option<String> {
-    let seen = need.seen?;
-    match &view.window {
-        None => Some(format!(
-            "{}: {seen} of its {}x{} pixels are needed, but {} is {}",
-            view.name,
-            view.nominal.width(),
-            view.nominal.height(),
-            view.files.path(None).display(),
-            if view.files.is_folder() { "a folder, not an image" } else { "missing" }
-        )),
-        Some((held, canvas)) => {
-            let held = rect(canvas, held);
-            (!held.contains(&seen)).then(|| {
-                format!(
-                    "{}: {seen} of its {}x{} pixels are needed, but {} holds only {held}",
-                    view.name,
-                    view.nominal.width(),
-                    view.nominal.height(),
-                    view.files.path(None).display()
-                )
-            })
-        }
-    }
-}
-
-/// Returns a warning where everything that pixels look at is there, but not all that the filter would read around it.
-fn frayed(view: &InputView, need: &Need) -> Option<Diagnostic> {
-    let (seen, read, (held, canvas)) = (need.seen?, need.read?, view.window.as_ref()?);
-    let held = rect(canvas, held);
-    (held.contains(&seen) && !held.contains(&read)).then(|| {
-        let message = format!(
-            "{}: the filter would read {read}, but the file holds {held}; pixels at its edge go without the rest",
-            view.name
-        );
-        Diagnostic::warning(Code::Frayed, message).about(&view.name)
-    })
-}
-
-/// Returns the part of its canvas that an image shows. One that goes all the way round shows every column, wherever it
-/// begins.
-fn rect(canvas: &Canvas, held: &View) -> PixelRect {
-    let edge = |at: i64, size: usize| at.clamp(0, size as i64) as usize;
-    let goes_round = held.period().is_some_and(|period| held.width() >= period);
-    let left = if goes_round { 0 } else { canvas.left };
-    PixelRect {
-        left: edge(left, canvas.width),
-        top: edge(canvas.top, canvas.height),
-        right: edge(left + held.width() as i64, canvas.width),
-        bottom: edge(canvas.top + held.height() as i64, canvas.height),
-    }
 }

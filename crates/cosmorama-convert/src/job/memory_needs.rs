@@ -6,7 +6,7 @@ use cosmorama::raster::Rgba;
 use cosmorama_io::Format;
 
 use crate::colour::LayerPlan;
-use crate::diagnostic::{CHANNELS, FILTER, Result};
+use crate::diagnostic::{CHANNELS, FILTER, Result, SHUTTER};
 use crate::input::{Input, InputView};
 use crate::job::{FrameMemory, QueueDepth};
 use crate::source::MemoryBudget;
@@ -63,6 +63,15 @@ impl MemoryBudget {
         let why = format!("; smaller copies of the input, for {FILTER} ewa-pyramid, are {} of it", human(levels));
         self.allow(needed, "a frame", &why)?;
         Ok(self.beside(levels))
+    }
+
+    /// Returns the budget that is left beside the sum of the pictures under a shutter. It is an error if a frame and that
+    /// do not fit.
+    pub(crate) fn beside_sum(self, input: &Input, target: &Target) -> Result<Self> {
+        let sum = output_bytes(target) / 2;
+        let why = format!("; the sum of its moments, for {SHUTTER}, is {} of it", human(sum));
+        self.allow(frame_bytes(input, target).saturating_add(sum), "a frame", &why)?;
+        Ok(self.beside(sum))
     }
 
     /// Chooses how many further channels are read at once, and returns the budget that is left beside all of them. It

@@ -4,11 +4,13 @@ pub(crate) mod aspect;
 mod chain;
 pub(crate) mod gpano;
 pub(crate) mod light;
+mod movement;
 pub(crate) mod picture;
 pub(crate) mod sheets;
 
 pub(crate) use chain::name_of_level;
 pub(crate) use light::of_light;
+pub(crate) use movement::{Movement, time};
 pub use picture::Picture;
 pub(crate) use sheets::{Sheet, Target, TargetFile, TargetView};
 

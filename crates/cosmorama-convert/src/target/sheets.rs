@@ -13,6 +13,7 @@ use crate::target::Picture;
 use crate::target::picture::world_of;
 
 /// An image to make.
+#[derive(Clone)]
 pub(crate) struct TargetView {
     /// Name in messages.
     pub(crate) name: String,

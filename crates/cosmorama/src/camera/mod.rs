@@ -16,6 +16,7 @@ mod st_map;
 mod view;
 
 use crate::projection::enum_dispatch;
+use crate::sphere::Angle;
 pub use error::CameraError;
 pub use field_stop::FieldStop;
 pub use flat::cube_face::CubeFaceCamera;
@@ -93,6 +94,11 @@ trait Camera {
         1.0
     }
 
+    /// Returns this camera with another field of view, if it has a single one that can change while all else stays.
+    fn with_field_of_view(&self, _: Angle) -> Option<CameraModel> {
+        None
+    }
+
     /// Returns whether a length in pixels fixes the scale, so that the image's size cannot be chosen freely.
     fn is_measured_in_pixels(&self) -> bool {
         false
@@ -110,6 +116,12 @@ impl CameraModel {
             return Err(CameraError::NoPixels { width, height });
         }
         each!(self, frame => frame.view(width, height))
+    }
+
+    /// Returns this camera with another field of view, measured as its own is; `None` for a model that has no single one which
+    /// could change while all else stays.
+    pub fn with_field_of_view(&self, field_of_view: Angle) -> Option<Self> {
+        each!(self, camera => camera.with_field_of_view(field_of_view))
     }
 
     /// Returns the height that suits a width. Fisheyes, domes and cube faces are square, Omnimax frames have the film's
@@ -154,7 +166,6 @@ impl CameraModel {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sphere::Angle;
 
     #[test]
     fn parity_with_a_cube_face_of_1024() {
@@ -186,6 +197,21 @@ mod tests {
             assert!(matches!(frame.size_at(pixels), Err(CameraError::SizeUnbounded { .. })), "{frame:?}");
         }
         assert!(frame(1e-300).size_at(512.0).is_ok_and(|(width, height)| width >= 2 && height >= 2));
+    }
+
+    #[test]
+    fn another_field_of_view_is_measured_as_the_cameras_own() {
+        let angle = Angle::from_degrees(40.0);
+        let of = |field_of_view| CameraModel::from(PerspectiveCamera::new(field_of_view));
+        let wide = Angle::from_degrees(90.0);
+        for kind in [FieldOfView::Horizontal, FieldOfView::Vertical, FieldOfView::Diagonal] {
+            assert_eq!(of(kind(wide)).with_field_of_view(angle), Some(of(kind(angle))));
+        }
+        let both = FieldOfView::Both { horizontal: wide, vertical: wide };
+        assert_eq!(of(both).with_field_of_view(angle), None);
+        assert_eq!(CameraModel::from(EquirectCamera::default()).with_field_of_view(angle), None);
+        let dome = FulldomeCamera { field_of_view: angle, ..FulldomeCamera::default() };
+        assert_eq!(CameraModel::from(FulldomeCamera::default()).with_field_of_view(angle), Some(dome.into()));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{Moment, Shutter};
+use super::{LightSum, Moment, Shutter};
 use crate::camera::{Covariance, Footprint, PixelPoint, View};
 use crate::filter::{CrossSection, Kernel, Prepared};
 use crate::raster::{Image, Rgba};
@@ -28,9 +28,6 @@ const STILL: f64 = 1e-3;
 /// Greatest number of moments: a streak of 512 pixels. Beyond it, steps are longer.
 const MOST_MOMENTS: usize = 1024;
 
-/// Number of moments by which the ways of pixels are measured, and from which an ellipse is made.
-const FEW: usize = 5;
-
 /// Pixels each way whose ways are measured.
 const LATTICE: usize = 17;
 
@@ -38,33 +35,48 @@ impl Exposure {
     /// Kernel by which [`Exposure::ellipse`] averages: a Gaussian of half a pixel's standard deviation.
     pub const KERNEL: Kernel = Kernel::uniform(CrossSection::Gaussian { alpha: 2.0, cutoff: 2.0 });
 
+    /// Number of moments by which the ways of pixels are measured, and from which an ellipse is made.
+    pub const FEW: usize = 5;
+
+    /// Returns how many moments an exposure needs, one where nothing moves. `views` are those at [`Exposure::FEW`] times that
+    /// divide it evenly, its ends among them; `texel` is the width of the world's finest texels in radians.
+    pub fn moments_needed(views: &[View], texel: f64) -> usize {
+        let longest = longest_way(views, texel);
+        if longest < STILL { 1 } else { ((longest / STEP).ceil() as usize).clamp(2, MOST_MOMENTS) }
+    }
+
+    /// Returns the exposure of a frame at given moments, each with the target's view then.
+    pub fn of_moments(moments: &[(Moment, View)], shutter: &Shutter, frame: f64) -> Self {
+        let variance = {
+            let sum = |of: &dyn Fn(f64) -> f64| {
+                moments.iter().map(|(moment, _)| moment.weight * of(moment.time - frame)).sum::<f64>()
+            };
+            sum(&|t| t * t) - sum(&|t| t).powi(2)
+        };
+        let whole = shutter.curve.variance() * shutter.fraction * shutter.fraction;
+        let views = moments.iter().map(|(moment, view)| (view.clone(), moment.weight as f32)).collect();
+        Self { views, spread: if variance > 0.0 { whole / variance } else { 0.0 } }
+    }
+
     /// Divides the exposure of a frame into moments. `view` is the target's view at a time, always of one size;
     /// `texel` is the width of the world's finest texels in radians.
     pub fn of(view: impl Fn(f64) -> View, shutter: &Shutter, frame: f64, texel: f64) -> Self {
-        let [open, close] = shutter.interval(frame);
-        let ends = (0..FEW).map(|k| view(open + (close - open) * k as f64 / (FEW - 1) as f64)).collect::<Vec<_>>();
-        let longest = longest_way(&ends, texel);
-        if longest < STILL {
-            return Self { views: vec![(view(frame), 1.0)], spread: 0.0 };
+        let ends: Vec<View> = shutter.division(frame).into_iter().map(&view).collect();
+        match Self::moments_needed(&ends, texel) {
+            1 => Self { views: vec![(view(frame), 1.0)], spread: 0.0 },
+            count => Self::at(&view, shutter, frame, count),
         }
-        let count = ((longest / STEP).ceil() as usize).clamp(1, MOST_MOMENTS);
-        Self::at(&view, shutter, frame, count)
     }
 
     /// Divides the exposure of a frame into a few moments, enough for [`Exposure::ellipse`].
     pub fn few(view: impl Fn(f64) -> View, shutter: &Shutter, frame: f64) -> Self {
-        Self::at(&view, shutter, frame, FEW)
+        Self::at(&view, shutter, frame, Self::FEW)
     }
 
     fn at(view: &impl Fn(f64) -> View, shutter: &Shutter, frame: f64, count: usize) -> Self {
         let moments = shutter.moments(frame, count);
-        let variance = |moments: &[Moment]| {
-            let sum = |of: &dyn Fn(f64) -> f64| moments.iter().map(|m| m.weight * of(m.time - frame)).sum::<f64>();
-            sum(&|t| t * t) - sum(&|t| t).powi(2)
-        };
-        let (found, whole) = (variance(&moments), shutter.curve.variance() * shutter.fraction * shutter.fraction);
-        let views = moments.iter().map(|moment| (view(moment.time), moment.weight as f32)).collect();
-        Self { views, spread: if found > 0.0 { whole / found } else { 0.0 } }
+        let moments: Vec<_> = moments.into_iter().map(|moment| (moment, view(moment.time))).collect();
+        Self::of_moments(&moments, shutter, frame)
     }
 
     /// Returns the views, each with the part of the light that it stands for.
@@ -84,17 +96,15 @@ impl Exposure {
     /// The first error of `render`.
     pub fn render<E>(&self, mut render: impl FnMut(&View) -> Result<Image<Rgba>, E>) -> Result<Image<Rgba>, E> {
         let (first, weight) = &self.views[0];
-        let mut mean = render(first)?;
+        let first = render(first)?;
         if self.is_still() {
-            return Ok(mean);
+            return Ok(first);
         }
-        mean.pixels_mut().par_iter_mut().for_each(|pixel| *pixel = *pixel * *weight);
+        let mut sum = LightSum::new(first, *weight);
         for (view, weight) in &self.views[1..] {
-            let image = render(view)?;
-            let pixels = mean.pixels_mut().par_iter_mut().zip(image.pixels().par_iter());
-            pixels.for_each(|(sum, pixel)| *sum += *pixel * *weight);
+            sum.add(&render(view)?, *weight);
         }
-        Ok(mean)
+        Ok(sum.into_image())
     }
 
     /// Averages the world for each pixel once, over its footprint widened by the covariance of its path: the paper's

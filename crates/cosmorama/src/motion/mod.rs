@@ -24,11 +24,13 @@
 //! ```
 
 mod exposure;
+mod light_sum;
 mod shutter;
 mod track;
 mod turn;
 
 pub use exposure::Exposure;
+pub use light_sum::LightSum;
 pub use shutter::{Moment, Shutter, ShutterCurve};
 pub use track::{Key, Pose, Smoothness, Track, TrackError};
 pub use turn::{Easing, Ramp, Turn};

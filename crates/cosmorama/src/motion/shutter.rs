@@ -1,3 +1,5 @@
+use super::Exposure;
+
 /// Time of each frame's exposure: its length, its place, and its light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shutter {
@@ -63,6 +65,12 @@ impl Shutter {
     /// Returns the times at which a frame's exposure begins and ends.
     pub fn interval(&self, frame: f64) -> [f64; 2] {
         [frame - self.phase * self.fraction, frame + (1.0 - self.phase) * self.fraction]
+    }
+
+    /// Returns the times that divide a frame's exposure evenly, its ends among them.
+    pub fn division(&self, frame: f64) -> [f64; Exposure::FEW] {
+        let [open, close] = self.interval(frame);
+        std::array::from_fn(|k| open + (close - open) * k as f64 / (Exposure::FEW - 1) as f64)
     }
 
     /// Divides an exposure into moments of equal length, each at its middle. Their weights sum to one.

@@ -139,6 +139,8 @@ impl Track {
         let span = to.time - from.time;
         let part = (time - from.time) / span;
         match self.smoothness {
+            // To the last digit: where a camera rests, its pose is one.
+            Smoothness::Slerp if from.pose == to.pose => from.pose,
             Smoothness::Slerp => {
                 let turn = rotation_between(from.pose, to.pose) * part;
                 let fov = from.pose.fov.zip(to.pose.fov).map(|(a, b)| a + (b - a) * part);
@@ -282,6 +284,13 @@ mod tests {
                 assert!(apart(found, expected) < 1e-6, "{smoothness:?} at {time}");
             }
         }
+    }
+
+    #[test]
+    fn a_camera_at_rest_has_one_pose() {
+        let key = pose(40.0, 7.0, -3.0);
+        let track = track(&[(2.0, key), (5.0, key), (6.0, pose(0.0, 0.0, 0.0))], Smoothness::Slerp);
+        assert!([2.0, 2.3, 3.0, 4.0, 5.0].iter().all(|time| track.pose(*time) == key));
     }
 
     #[test]

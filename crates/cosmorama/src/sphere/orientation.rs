@@ -57,6 +57,27 @@ impl Orientation {
         Self { world_from_view: DMat3::from_quat(rotation.normalize()) }
     }
 
+    /// Returns the orientation of a camera that a unit quaternion turns, given by its numbers w, x, y and z, as
+    /// [`Orientation::from_rotation`] has it.
+    ///
+    /// # Errors
+    /// The quaternion's length, if that is not 1 to a thousandth.
+    pub fn from_quaternion([w, x, y, z]: [f64; 4]) -> Result<Self, f64> {
+        let rotation = DQuat::from_xyzw(x, y, z, w);
+        let length = rotation.length();
+        if (length - 1.0).abs() < 1e-3 { Ok(Self::from_rotation(rotation)) } else { Err(length) }
+    }
+
+    /// Returns the angle of the shortest turn from this orientation to another.
+    pub fn angle_to(&self, other: &Self) -> Angle {
+        // The angle of a rotation, by its trace and its antisymmetric part: exact for small angles, and near half a turn.
+        let turn = self.world_from_view.transpose() * other.world_from_view;
+        let axis =
+            DVec3::new(turn.y_axis.z - turn.z_axis.y, turn.z_axis.x - turn.x_axis.z, turn.x_axis.y - turn.y_axis.x);
+        let trace = turn.x_axis.x + turn.y_axis.y + turn.z_axis.z;
+        Angle::from_radians(axis.length().atan2(trace - 1.0))
+    }
+
     /// Returns the unit quaternion that takes the view's frame to the world's.
     pub fn rotation(&self) -> DQuat {
         DQuat::from_mat3(&self.world_from_view)
@@ -141,6 +162,19 @@ mod tests {
 
     fn assert_close(a: Direction, b: Direction) {
         assert!(a.angle_to(b).degrees() < 1e-9, "{a:?} is not {b:?}");
+    }
+
+    #[test]
+    fn quaternions_and_angles_between_orientations() {
+        let half = 0.5_f64.sqrt();
+        let left = Orientation::from_quaternion([half, 0.0, half, 0.0]).expect("a unit quaternion");
+        assert_close(left.to_world(Direction::FRONT), Direction::LEFT);
+        assert!(Orientation::from_quaternion([1.0, 0.1, 0.0, 0.0]).is_err_and(|length| (length - 1.005).abs() < 1e-3));
+        assert!(Orientation::from_quaternion([f64::NAN, 0.0, 0.0, 0.0]).is_err());
+        for degrees in [0.0, 1e-5, 30.0, 90.0, 179.99] {
+            let (a, b) = (oriented(20.0, 10.0, 5.0), oriented(20.0, 10.0, 5.0 + degrees));
+            assert!((a.angle_to(&b).degrees() - degrees).abs() < 1e-9, "{degrees}");
+        }
     }
 
     #[test]

@@ -1,10 +1,31 @@
-use cosmorama_spec::parse_degrees;
+use cosmorama::motion::Ramp;
+use cosmorama_spec::{parse_degrees, parse_ramp};
 
-/// Parses an angle in degrees, as `--yaw` takes it.
+/// Parses an angle in degrees.
 pub(crate) fn degrees(text: &str) -> Result<f64, String> {
     parse_degrees(text)
         .map(|angle| angle.degrees())
         .ok_or_else(|| "expected one angle in degrees, without a unit, as in 30 or -12.5".to_owned())
+}
+
+/// Parses an angle in degrees, or one that changes, as `--yaw` takes it.
+pub(crate) fn ramp(text: &str) -> Result<Ramp, String> {
+    parse_ramp(text).ok_or_else(|| {
+        "expected one angle in degrees, without a unit, as in 30 or -12.5, or two, as in 0..360".to_owned()
+    })
+}
+
+/// Parses a field of view that changes.
+pub(crate) fn zoom(text: &str) -> Result<Ramp, String> {
+    let is_view = |ramp: &Ramp| [ramp.from, ramp.to].iter().all(|fov| *fov > 0.0 && *fov <= 360.0);
+    parse_ramp(text).filter(|ramp| text.contains("..") && is_view(ramp)).ok_or_else(|| {
+        "expected two angles, as in 60..30; one that stays belongs into --to, as in --to perspective:fov=60".to_owned()
+    })
+}
+
+/// Parses a rate: a number more than zero.
+pub(crate) fn positive(text: &str) -> Result<f64, String> {
+    finite(text).ok().filter(|number| *number > 0.0).ok_or_else(|| "expected a number more than 0".to_owned())
 }
 
 /// Parses a factor: a number more than zero that single precision holds.

@@ -1,17 +1,18 @@
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use cosmorama::camera::View;
 use cosmorama::raster::{FixedCodec, FixedLight, FramePool, Image, Pixel, Rgba};
-use cosmorama::render::{Progress, ScreenMask, Stopped};
+use cosmorama::render::{Progress, Share, Stopped};
 use cosmorama::world::Source;
 use cosmorama_io::WriteOptions;
 
 use crate::detect::FacePixels;
 use crate::detect::pixels::light_of;
 use crate::diagnostic::{BACKGROUND, Code, ConvertError, Diagnostic, MISSING, Result, bail};
+use crate::engine::geometry::{arithmetic, codec};
 use crate::engine::{
-    BalancedLight, FrameLight, Geometry, LayerPass, Levels, LightMaps, LightReport, Shares, Texels, Writer, warnings,
+    BalancedLight, FrameLight, LayerPass, Levels, LightMaps, LightReport, Posed, Shares, Texels, Writer, warnings,
 };
 use crate::input::InputView;
 use crate::job::coverage::Coverage;
@@ -20,45 +21,85 @@ use crate::target::{Sheet, Target};
 
 /// Makes the outputs of a job, frame by frame.
 pub(crate) struct Engine<'a> {
-    job: &'a ConvertJob,
-    geometry: Geometry,
-    /// Diagnostics about the geometry.
-    told: Vec<Diagnostic>,
-    masks: Vec<OnceLock<ScreenMask>>,
+    pub(super) job: &'a ConvertJob,
+    /// Encoder from 15 bits to 8, for jobs with opaque 8-bit pictures in and out.
+    codec: Option<FixedCodec>,
+    /// Pose of the last frame: of all frames where nothing moves.
+    posed: Mutex<Option<Arc<Posed>>>,
+    /// Diagnostics about the geometry that are not told yet.
+    told: Mutex<Vec<Diagnostic>>,
     writer: Writer,
     /// Frames that may be in flight around the one that is filtered.
     queue_depth: QueueDepth,
     /// Pool of memory that frames hand on.
-    pool: Arc<FramePool>,
+    pub(super) pool: Arc<FramePool>,
     /// Figures of maps of light, by frame.
     lit: Mutex<Vec<LightReport>>,
 }
 
 /// State of a frame while its pictures are made.
-struct Making<'a> {
-    balanced: BalancedLight,
-    shares: Shares<'a>,
+pub(super) struct Making<'a> {
+    pub(super) posed: &'a Posed,
+    pub(super) balanced: BalancedLight,
+    pub(super) shares: Shares<'a>,
 }
 
 impl<'a> Engine<'a> {
     /// Prepares the geometry, on the threads that will render the frames.
     pub(crate) fn new(job: &'a ConvertJob, options: WriteOptions, progress: &dyn Progress) -> Result<Self, Stopped> {
-        let masks = job.target.views.iter().map(|_| OnceLock::new()).collect();
-        let (geometry, told) = Geometry::compile(job, progress)?;
+        let (posed, told, geometry) = if job.movement.is_some() {
+            (None, Vec::new(), bytes_while_moving(job))
+        } else {
+            let (posed, told) =
+                Posed::new(job, (None, job.target.views.clone(), job.outputs.frames.len() > 1), progress)?;
+            let bytes = posed.geometry.bytes();
+            (Some(Arc::new(posed)), told, bytes)
+        };
         let threads = rayon::current_num_threads();
-        let mut queue_depth = job.memory.queue_depth(&job.input, &job.target, geometry.bytes(), threads);
+        let mut queue_depth = job.memory.queue_depth(&job.input, &job.target, geometry, threads);
         if !job.layers.groups.is_empty() {
             // Further channels take the memory of many pictures, which was kept for one frame.
             queue_depth.written = 1;
         }
         let pool = Arc::new(FramePool::keeping(pool_bytes(job, queue_depth)));
         let writer = Writer::new(&job.light, &job.layers.picture, WriteOptions { pool: Arc::clone(&pool), ..options });
-        Ok(Self { job, geometry, told, masks, writer, queue_depth, pool, lit: Mutex::default() })
+        let (codec, posed, told) = (codec(job), Mutex::new(posed), Mutex::new(told));
+        Ok(Self { job, codec, posed, told, writer, queue_depth, pool, lit: Mutex::default() })
     }
 
-    /// Returns the diagnostics that are known before any frame.
-    pub(crate) fn told(&self) -> &[Diagnostic] {
-        &self.told
+    /// Adds diagnostics about geometry, each of which is told once.
+    pub(super) fn will_tell(&self, found: Vec<Diagnostic>) {
+        let mut told = lock(&self.told);
+        for diagnostic in found {
+            if !told.contains(&diagnostic) {
+                told.push(diagnostic);
+            }
+        }
+    }
+
+    /// Takes the diagnostics about geometry that are not told yet.
+    pub(crate) fn told(&self) -> Vec<Diagnostic> {
+        std::mem::take(&mut lock(&self.told))
+    }
+
+    /// Returns the target's views in a frame. They are kept, with their geometry, while the pose stays the same.
+    pub(super) fn posed(&self, frame: &FrameOutputs, progress: &dyn Progress) -> Result<Arc<Posed>> {
+        let pose = self.job.pose(frame.frame);
+        let mut last = lock(&self.posed);
+        if let Some(posed) = last.as_ref().filter(|posed| posed.pose == pose) {
+            return Ok(Arc::clone(posed));
+        }
+        // Never both at once.
+        *last = None;
+        let mut after = self.job.outputs.frames.iter().skip_while(|other| other.frame != frame.frame).skip(1);
+        let is_repeated = after.next().is_some_and(|next| self.job.pose(next.frame) == pose);
+        let beginning = Share { whole: progress, from: 0.0, to: 0.0 };
+        let views = self.job.views_in(pose.as_ref())?;
+        let made = Posed::new(self.job, (pose, views, is_repeated), &beginning).map_err(|Stopped| self.stopped())?;
+        let (posed, told) = (Arc::new(made.0), made.1);
+        self.will_tell(told);
+        *last = Some(Arc::clone(&posed));
+        Ok(posed)
     }
 
     /// Returns how many frames may be read ahead and written behind the one that is filtered.
@@ -73,12 +114,12 @@ impl<'a> Engine<'a> {
 
     /// Returns the figures of maps of light, in the order of frames.
     pub(crate) fn light_reports(&self) -> Vec<LightReport> {
-        self.lit.lock().unwrap_or_else(PoisonError::into_inner).clone()
+        lock(&self.lit).clone()
     }
 
     /// Allocates the light of a frame.
     pub(crate) fn frame_light(&self) -> FrameLight {
-        FrameLight::new(self.job, self.geometry.codec().is_some())
+        FrameLight::new(self.job, self.codec.is_some())
     }
 
     /// Returns the writer of the pictures.
@@ -127,7 +168,15 @@ impl<'a> Engine<'a> {
             );
             Diagnostic::warning(Code::AlphaFlattened, message).about(path.display())
         };
-        self.incomplete(light).map(tell).chain(light.flattened().map(flat)).chain(thin).chain(suns).collect()
+        // What a still file lacks, it lacks in all frames.
+        let is_new = |(view, _): &(&InputView, usize)| is_first || view.files.sequence().is_some();
+        self.incomplete(light)
+            .filter(is_new)
+            .map(tell)
+            .chain(light.flattened().map(flat))
+            .chain(thin)
+            .chain(suns)
+            .collect()
     }
 
     /// Visits the views with missing texels, and their number.
@@ -146,6 +195,10 @@ impl<'a> Engine<'a> {
         if let Some(maps) = LightMaps::of(self.job, light.texels())? {
             return self.render_maps(frame, (light, &maps), progress);
         }
+        if let Some(moments) = self.blur_of(frame)? {
+            return self.render_blurred(frame, (light, &moments), progress);
+        }
+        let posed = self.posed(frame, progress)?;
         let Target { views, files, .. } = &self.job.target;
         let sheets = frame.files.iter().flat_map(|(file, _)| files[*file].levels());
         let views: Vec<&View> = sheets.flat_map(|sheet| &sheet.pieces).map(|(index, _)| &views[*index].view).collect();
@@ -153,7 +206,8 @@ impl<'a> Engine<'a> {
         // Once for the picture, and once for each group of further channels.
         let times = usize::from(!layers.leaves_picture_out()) + layers.groups.len();
         let all = views.iter().copied().cycle().take(views.len() * times);
-        let mut making = Making { balanced: BalancedLight::default(), shares: Shares::new(progress, all) };
+        let mut making =
+            Making { posed: &posed, balanced: BalancedLight::default(), shares: Shares::new(progress, all) };
         let mut picture = |(index, _): &(usize, PathBuf)| {
             if layers.leaves_picture_out() {
                 return Ok(Levels::Light(Vec::new()));
@@ -161,17 +215,17 @@ impl<'a> Engine<'a> {
             self.render_file(*index, (frame.frame, light), &mut making)
         };
         let pictures = frame.files.iter().map(&mut picture).collect::<Result<Vec<Levels>>>()?;
-        if layers.is_plain() { Ok(pictures) } else { self.with_channels(frame, pictures, &mut making.shares) }
+        if layers.is_plain() { Ok(pictures) } else { self.with_channels(frame, pictures, &mut making) }
     }
 
     /// Adds the further channels of a frame to its pictures.
-    fn with_channels(
+    pub(super) fn with_channels(
         &self,
         frame: &FrameOutputs,
         pictures: Vec<Levels>,
-        shares: &mut Shares<'_>,
+        Making { posed, shares, .. }: &mut Making,
     ) -> Result<Vec<Levels>> {
-        let pass = LayerPass { job: self.job, geometry: &self.geometry, pool: &self.pool };
+        let pass = LayerPass { job: self.job, posed, pool: &self.pool };
         let made = pass.make(frame, shares)?;
         let size = |(index, _): &(usize, PathBuf)| self.job.target.files[*index].sheet.size;
         let all = frame.files.iter().map(size).zip(pictures).zip(made);
@@ -195,29 +249,30 @@ impl<'a> Engine<'a> {
         }
         let measured: Vec<_> = views.iter().zip(&made).collect();
         let reports = LightReport::of(self.job, frame.frame, light.texels(), &measured);
-        self.lit.lock().unwrap_or_else(PoisonError::into_inner).extend(reports);
-        frame.files.iter().map(|(file, _)| self.map_file(*file, &made)).collect()
+        lock(&self.lit).extend(reports);
+        let posed = self.posed(frame, progress)?;
+        frame.files.iter().map(|(file, _)| self.map_file((&posed, *file), &made)).collect()
     }
 
     /// Assembles the maps of light of a file.
-    fn map_file(&self, index: usize, maps: &[Image<Rgba>]) -> Result<Levels> {
+    fn map_file(&self, (posed, file): (&Posed, usize), maps: &[Image<Rgba>]) -> Result<Levels> {
         let view = |index: usize| {
             let mut image = maps[index].clone();
-            self.lay_background(index, &mut image);
+            self.lay_background((posed, index), &mut image);
             Ok(image)
         };
         let picture = |sheet| assemble_in(&self.pool, sheet, self.job.light.background, view);
-        Ok(Levels::Light(self.job.target.files[index].levels().map(picture).collect::<Result<_>>()?))
+        Ok(Levels::Light(self.job.target.files[file].levels().map(picture).collect::<Result<_>>()?))
     }
 
-    fn render_file(
+    pub(super) fn render_file(
         &self,
         file: usize,
         (frame, light): (Option<u64>, &FrameLight),
         making: &mut Making,
     ) -> Result<Levels> {
         let sheets = self.job.target.files[file].levels();
-        match (light.texels(), self.geometry.codec()) {
+        match (light.texels(), &self.codec) {
             (Texels::Fixed(worlds), Some(codec)) => {
                 let mut view = |index| self.codes(index, (worlds, codec), making);
                 let picture = |sheet| assemble_in(&self.pool, sheet, codec.background(), &mut view);
@@ -237,10 +292,11 @@ impl<'a> Engine<'a> {
         (worlds, codec): (&[FixedLight], &FixedCodec),
         making: &mut Making,
     ) -> Result<Image<[u8; 3]>> {
-        let target = &self.job.target.views[index];
+        let target = &making.posed.views[index];
         let light = &worlds[target.world(worlds.len())];
         let share = making.shares.next(&target.view);
-        let made = self.geometry.codes(index, self.job.resampler(target).watched(&share), (light, codec), &self.pool);
+        let made =
+            making.posed.geometry.codes(index, self.job.resampler(target).watched(&share), (light, codec), &self.pool);
         made.map_err(|Stopped| self.stopped())
     }
 
@@ -248,14 +304,14 @@ impl<'a> Engine<'a> {
         &self,
         index: usize,
         (frame, light): (Option<u64>, &FrameLight),
-        Making { balanced, shares }: &mut Making,
+        Making { posed, balanced, shares }: &mut Making,
     ) -> Result<Image<Rgba>> {
-        let target = &self.job.target.views[index];
+        let target = &posed.views[index];
         let Texels::Float(worlds) = light.texels() else { bail!("light of 8 bits where floats were expected") };
         let share = shares.next(&target.view);
         let (resampler, texels) = (self.job.resampler(target).watched(&share), &worlds[target.world(worlds.len())]);
         let mut make = |light, background| {
-            let made = self.geometry.light(index, resampler, light, background, &self.pool, balanced);
+            let made = posed.geometry.light(index, resampler, light, background, &self.pool, balanced);
             made.map_err(|Stopped| self.stopped())
         };
         if self.is_complete(light) && !self.job.light.channels.has_alpha() {
@@ -264,13 +320,13 @@ impl<'a> Engine<'a> {
             return make((texels, false), background);
         }
         let mut image = make((texels, self.has_holes(light)), Rgba::TRANSPARENT)?;
-        self.close_holes(index, (frame, light), &mut image)?;
-        self.complete(index, &mut image);
+        self.close_holes((posed, index), (frame, light), &mut image)?;
+        self.complete((posed, index), &mut image);
         Ok(image)
     }
 
     /// Creates the error of a stopped frame, as if no frame were done: the caller knows how many are.
-    fn stopped(&self) -> ConvertError {
+    pub(super) fn stopped(&self) -> ConvertError {
         ConvertError::Stopped { done: 0, frames: self.job.outputs.frames.len() }
     }
 
@@ -284,23 +340,18 @@ impl<'a> Engine<'a> {
         !self.job.light.input_alpha && self.incomplete(light).next().is_some()
     }
 
-    fn complete(&self, index: usize, image: &mut Image<Rgba>) {
+    pub(super) fn complete(&self, (posed, index): (&Posed, usize), image: &mut Image<Rgba>) {
         if let Coverage::Fill(colour) = self.job.coverage {
-            self.mask(index).fill_unseen(image, colour);
+            posed.mask(self.job, index).fill_unseen(image, colour);
         }
-        self.lay_background(index, image);
-    }
-
-    fn mask(&self, index: usize) -> &ScreenMask {
-        let target = &self.job.target.views[index];
-        self.masks[index].get_or_init(|| ScreenMask::new(self.job.world(target), &target.view))
+        self.lay_background((posed, index), image);
     }
 
     /// Fills pixels of opaque inputs whose texels are missing: the remaining texels make the pixel, and a pixel without
     /// any is treated as one without a view.
-    fn close_holes(
+    pub(super) fn close_holes(
         &self,
-        index: usize,
+        (posed, index): (&Posed, usize),
         (frame, light): (Option<u64>, &FrameLight),
         image: &mut Image<Rgba>,
     ) -> Result<()> {
@@ -308,7 +359,7 @@ impl<'a> Engine<'a> {
             return Ok(());
         }
         let fill = self.job.fill_for_missing();
-        let empty = self.mask(index).close_holes(image, fill.unwrap_or(Rgba::TRANSPARENT));
+        let empty = posed.mask(self.job, index).close_holes(image, fill.unwrap_or(Rgba::TRANSPARENT));
         if empty > 0 && fill.is_none() {
             let culprit =
                 |(view, count): (&InputView, usize)| format!("{} ({count})", view.files.path(frame).display());
@@ -316,7 +367,7 @@ impl<'a> Engine<'a> {
             bail!(
                 NotANumber: "in {}, {} nothing but missing pixels (NaN), found in {}; render those again, or fill the \
                  gaps with {MISSING} COLOR or {MISSING} transparent",
-                self.job.target.views[index].name,
+                posed.views[index].name,
                 counted(empty, "sees", "see"),
                 culprits.join(", ")
             );
@@ -324,14 +375,31 @@ impl<'a> Engine<'a> {
         Ok(())
     }
 
-    fn lay_background(&self, index: usize, image: &mut Image<Rgba>) {
+    fn lay_background(&self, (posed, index): (&Posed, usize), image: &mut Image<Rgba>) {
         let background = self.job.light.background;
         if !self.job.light.channels.has_alpha() {
             image.lay_over(background);
         } else if background != Rgba::TRANSPARENT {
-            self.mask(index).surround(image, background);
+            posed.mask(self.job, index).surround(image, background);
         }
     }
+}
+
+/// Locks a value that no panic leaves half changed.
+fn lock<T>(value: &Mutex<T>) -> MutexGuard<'_, T> {
+    value.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Returns the bytes of geometry that is kept while a moving camera stands still for several frames.
+fn bytes_while_moving(job: &ConvertJob) -> u64 {
+    let frames = &job.outputs.frames;
+    let is_still = |pair: &[FrameOutputs]| job.pose(pair[0].frame) == job.pose(pair[1].frame);
+    if !frames.windows(2).any(is_still) {
+        return 0;
+    }
+    let arithmetic = arithmetic(job);
+    let plans = job.target.views.iter().map(|target| job.resampler(target).plan_bytes_estimate(arithmetic) as u64);
+    plans.sum::<u64>().min(job.memory.left_for_plan(&job.input, &job.target, rayon::current_num_threads()))
 }
 
 /// Counts pixels, with the verb for one and that for several.
@@ -357,7 +425,7 @@ fn pool_bytes(job: &ConvertJob, queue_depth: QueueDepth) -> u64 {
 }
 
 /// Assembles a picture in memory of a pool, and gives the memory of its pieces back.
-fn assemble_in<P: Pixel>(
+pub(super) fn assemble_in<P: Pixel>(
     pool: &FramePool,
     sheet: &Sheet,
     background: P,

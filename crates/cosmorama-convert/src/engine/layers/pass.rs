@@ -11,7 +11,7 @@ use super::{FilePlanes, ViewPlanes};
 use crate::colour::{LayerContent, LayerGroup};
 use crate::diagnostic::{ConvertError, Result, bail};
 use crate::engine::Shares;
-use crate::engine::{BalancedLight, FrameFile, Geometry, Which};
+use crate::engine::{BalancedLight, FrameFile, Posed, Which};
 use crate::job::{ConvertJob, FrameOutputs};
 use crate::packing::Place;
 use crate::source::read_further;
@@ -21,7 +21,7 @@ use crate::target::Sheet;
 #[derive(Clone, Copy)]
 pub(crate) struct LayerPass<'a> {
     pub(crate) job: &'a ConvertJob,
-    pub(crate) geometry: &'a Geometry,
+    pub(crate) posed: &'a Posed,
     pub(crate) pool: &'a FramePool,
 }
 
@@ -103,7 +103,7 @@ impl LayerPass<'_> {
         let mut planes: Vec<Plane> = channels.map(blank).collect();
         for &(index, (left, top)) in &sheet.pieces {
             let mut image = self.render(index, texels, shares)?;
-            let target = &self.job.target.views[index];
+            let target = &self.posed.views[index];
             finish((texels.group.content, self.job.layers.rules), &target.view, &mut image);
             let world = target.world(texels.worlds.len());
             planes.par_iter_mut().enumerate().for_each(|(channel, plane)| {
@@ -128,7 +128,7 @@ impl LayerPass<'_> {
     /// Filters a group for a view of the target.
     fn render(&self, index: usize, texels: &GroupTexels<'_>, shares: &mut Shares<'_>) -> Result<Image<Rgba>> {
         let job = self.job;
-        let target = &job.target.views[index];
+        let target = &self.posed.views[index];
         let share = shares.next(&target.view);
         let light = &texels.worlds[target.world(texels.worlds.len())];
         let resampler = job.resampler(target);
@@ -139,7 +139,7 @@ impl LayerPass<'_> {
         } else {
             // Numbers that are no light have no total to keep, so that nothing is balanced, as with holes.
             let (watched, mut balanced) = (resampler.watched(&share), BalancedLight::default());
-            self.geometry.light(index, watched, (light, true), Rgba::TRANSPARENT, self.pool, &mut balanced)
+            self.posed.geometry.light(index, watched, (light, true), Rgba::TRANSPARENT, self.pool, &mut balanced)
         };
         made.map_err(|Stopped| ConvertError::Stopped { done: 0, frames: job.outputs.frames.len() })
     }

@@ -8,6 +8,7 @@ use cosmorama::render::Plan;
 
 use crate::job::ConvertJob;
 use crate::job::coverage::Coverage;
+use crate::target::TargetView;
 
 /// Energy balance of a job's pictures, for those that can and should keep light.
 #[cfg_attr(test, derive(Default))]
@@ -19,7 +20,7 @@ pub(crate) struct BalancedLight(Option<(usize, Vec<Rgba>)>);
 
 /// Views of one size that together show a world.
 struct Group {
-    /// Indices of the job's target views.
+    /// Indices of the target's views.
     views: Vec<usize>,
     balance: LightBalance,
     bytes: u64,
@@ -33,42 +34,46 @@ pub(crate) fn is_asked_for(job: &ConvertJob) -> bool {
 
 /// Returns the views of each size that together show all that a world shows. Pixels filled for lack of a view, and
 /// alpha, rule out a balance.
-pub(crate) fn groups(job: &ConvertJob) -> Vec<Vec<usize>> {
+pub(crate) fn groups(job: &ConvertJob, targets: &[TargetView]) -> Vec<Vec<usize>> {
     if !is_asked_for(job) || job.light.input_alpha || matches!(job.coverage, Coverage::Fill(_)) {
         return Vec::new();
     }
     let key = |index: usize| {
-        let target = &job.target.views[index];
+        let target = &targets[index];
         (target.world(job.worlds.len()), target.view.width(), target.view.height())
     };
     let mut groups: Vec<Vec<usize>> = Vec::new();
-    for index in 0..job.target.views.len() {
+    for index in 0..targets.len() {
         match groups.iter_mut().find(|group| key(group[0]) == key(index)) {
             Some(group) => group.push(index),
             None => groups.push(vec![index]),
         }
     }
-    groups.retain(|group| LightBalance::applies(job.world(&job.target.views[group[0]]), &views(job, group)));
+    groups.retain(|group| LightBalance::applies(job.world(&targets[group[0]]), &views(targets, group)));
     groups
 }
 
 /// Returns the bytes that the balance of these groups takes.
-pub(crate) fn bytes_of(job: &ConvertJob, groups: &[Vec<usize>]) -> u64 {
-    groups.iter().map(|group| LightBalance::bytes(job.world(&job.target.views[group[0]]), &views(job, group))).sum()
+pub(crate) fn bytes_of((job, targets): (&ConvertJob, &[TargetView]), groups: &[Vec<usize>]) -> u64 {
+    groups.iter().map(|group| LightBalance::bytes(job.world(&targets[group[0]]), &views(targets, group))).sum()
 }
 
-fn views<'a>(job: &'a ConvertJob, group: &[usize]) -> Vec<&'a View> {
-    group.iter().map(|index| &job.target.views[*index].view).collect()
+fn views<'a>(targets: &'a [TargetView], group: &[usize]) -> Vec<&'a View> {
+    group.iter().map(|index| &targets[*index].view).collect()
 }
 
 impl Balance {
     /// Computes the balance of groups whose plans are kept.
-    pub(crate) fn of(job: &ConvertJob, groups: Vec<Vec<usize>>, plans: &[Option<Plan>]) -> Self {
+    pub(crate) fn of(
+        (job, targets): (&ConvertJob, &[TargetView]),
+        groups: Vec<Vec<usize>>,
+        plans: &[Option<Plan>],
+    ) -> Self {
         let balanced = |indices: Vec<usize>| {
-            let plan = |index: &usize| Some((plans[*index].as_ref()?, &job.target.views[*index].view));
-            let targets: Vec<_> = indices.iter().map(plan).collect::<Option<_>>()?;
-            let balance = LightBalance::new(job.world(&job.target.views[indices[0]]), &targets);
-            let bytes = bytes_of(job, std::slice::from_ref(&indices));
+            let plan = |index: &usize| Some((plans[*index].as_ref()?, &targets[*index].view));
+            let planned: Vec<_> = indices.iter().map(plan).collect::<Option<_>>()?;
+            let balance = LightBalance::new(job.world(&targets[indices[0]]), &planned);
+            let bytes = bytes_of((job, targets), std::slice::from_ref(&indices));
             Some(Group { views: indices, balance, bytes })
         };
         Self(groups.into_iter().filter_map(balanced).collect())

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use cosmorama::camera::View;
+use cosmorama::motion::LightSum;
 use cosmorama::raster::{ColourMatrix, Depth, Image, Primaries, Threads};
 use cosmorama_builtin::{BuiltinWorld, DirectionMap, DirectionPixel};
 use cosmorama_io::{WriteOptions, write_planes};
@@ -9,12 +11,11 @@ use cosmorama_io::{WriteOptions, write_planes};
 use crate::diagnostic::Result;
 use crate::engine::unfiltered::OutputFile;
 use crate::engine::{Levels, Stage, Writer, assemble};
-use crate::job::ConvertJob;
 
 /// Makes a picture of a world by formula.
 pub(crate) fn picture(output: &OutputFile, world: BuiltinWorld, options: &WriteOptions) -> Result<()> {
-    let OutputFile { job, stages, index, path, .. } = *output;
-    let levels = stages.alone(Stage::Filter, || levels(job, world, index))?;
+    let OutputFile { job, stages, path, .. } = *output;
+    let levels = stages.alone(Stage::Filter, || levels(output, world))?;
     stages.alone(Stage::Encode, || {
         Writer::new(&job.light, &job.layers.picture, options.clone()).save(levels, path, Threads::All)
     })
@@ -22,34 +23,43 @@ pub(crate) fn picture(output: &OutputFile, world: BuiltinWorld, options: &WriteO
 
 /// Makes a map of directions.
 pub(crate) fn directions(output: &OutputFile, map: DirectionMap) -> Result<()> {
-    let OutputFile { job, stages, index, path, .. } = *output;
-    let pixels = stages.alone(Stage::Filter, || pixels(job, map, index))?;
+    let OutputFile { job, stages, path, .. } = *output;
+    let pixels = stages.alone(Stage::Filter, || pixels(output, map))?;
     let metadata = job.light.metadata.clone();
     let options = WriteOptions { unfinished: output.unfinished.clone(), ..WriteOptions::with_metadata(metadata) };
     stages.alone(Stage::Encode, || save_map(job.light.depth, map, &pixels, path, &options))
 }
 
 /// Renders a file's picture and its mip levels over their background.
-fn levels(job: &ConvertJob, world: BuiltinWorld, file: usize) -> Result<Levels> {
+fn levels(output: &OutputFile, world: BuiltinWorld) -> Result<Levels> {
+    let OutputFile { job, exposure, index: file, .. } = *output;
     let background = job.light.background;
-    let picture = |index: usize| {
-        let mut image = world.picture(&job.target.views[index].view);
-        // Formulas have the primaries of Rec. 709.
-        let matrix = ColourMatrix::between(&Primaries::REC709, &job.light.working.primaries);
+    // Formulas have the primaries of Rec. 709.
+    let matrix = ColourMatrix::between(&Primaries::REC709, &job.light.working.primaries);
+    let moment = |view: &View| {
+        let mut image = world.picture(view);
         if !matrix.is_identity() {
             matrix.convert(image.pixels_mut());
         }
         image.pixels_mut().iter_mut().for_each(|pixel| *pixel = pixel.over(background));
-        Ok(image)
+        image
+    };
+    let picture = |index: usize| match exposure {
+        [(views, weight), rest @ ..] if !rest.is_empty() => {
+            let mut sum = LightSum::new(moment(&views[index].view), *weight);
+            rest.iter().for_each(|(views, weight)| sum.add(&moment(&views[index].view), *weight));
+            Ok(sum.into_image())
+        }
+        _ => Ok(moment(&output.views[index].view)),
     };
     let levels = job.target.files[file].levels();
     Ok(Levels::Light(levels.map(|sheet| assemble(sheet, background, picture)).collect::<Result<_>>()?))
 }
 
 /// Computes the directions of a file's pixels.
-fn pixels(job: &ConvertJob, map: DirectionMap, file: usize) -> Result<Image<DirectionPixel>> {
-    assemble(&job.target.files[file].sheet, DirectionPixel::default(), |index| {
-        Ok(map.pixels(&job.target.views[index].view))
+fn pixels(output: &OutputFile, map: DirectionMap) -> Result<Image<DirectionPixel>> {
+    assemble(&output.job.target.files[output.index].sheet, DirectionPixel::default(), |index| {
+        Ok(map.pixels(&output.views[index].view))
     })
 }
 

@@ -21,7 +21,7 @@ const CHANNELS: [&str; 3] = ["R", "G", "B"];
 /// Writes the st map of a file.
 pub(crate) fn make(output: &OutputFile) -> Result<()> {
     let OutputFile { job, stages, .. } = *output;
-    let map = |view: usize| st_pixels(job, &job.target.views[view]);
+    let map = |view: usize| st_pixels(job, &output.views[view]);
     let image = stages.alone(Stage::Filter, || assemble(&job.target.files[output.index].sheet, ST_NOWHERE, map))?;
     let options = WriteOptions { unfinished: output.unfinished.clone(), ..WriteOptions::default() };
     stages.alone(Stage::Encode, || save(&image, output.path, job.light.depth, &options))

@@ -17,3 +17,15 @@ pub enum FieldOfView {
         vertical: Angle,
     },
 }
+
+impl FieldOfView {
+    /// Returns an angle measured in this way; `None` where two angles are needed.
+    pub(crate) fn with_angle(self, angle: Angle) -> Option<Self> {
+        match self {
+            Self::Horizontal(_) => Some(Self::Horizontal(angle)),
+            Self::Vertical(_) => Some(Self::Vertical(angle)),
+            Self::Diagonal(_) => Some(Self::Diagonal(angle)),
+            Self::Both { .. } => None,
+        }
+    }
+}

@@ -1,7 +1,7 @@
 use glam::DVec2;
 
 use crate::camera::error::{check_field_of_view, check_positive};
-use crate::camera::{Camera, CameraError, FieldOfView, FieldStop, PixelGrid, PixelPoint, View};
+use crate::camera::{Camera, CameraError, CameraModel, FieldOfView, FieldStop, PixelGrid, PixelPoint, View};
 use crate::projection::ProjectionKind;
 use crate::sphere::{Angle, Orientation};
 
@@ -44,6 +44,11 @@ impl Camera for PerspectiveCamera {
             grid: PixelGrid::centred(width, height, PixelPoint::new(w / 2.0, h / 2.0), step),
             stop: FieldStop::NONE,
         })
+    }
+
+    fn with_field_of_view(&self, field_of_view: Angle) -> Option<CameraModel> {
+        let field_of_view = self.field_of_view.with_angle(field_of_view)?;
+        Some(Self { field_of_view, ..*self }.into())
     }
 
     fn natural_ratio(&self) -> f64 {

@@ -1,7 +1,7 @@
 use glam::DVec2;
 
 use crate::camera::error::{check_field_of_view, check_positive};
-use crate::camera::{Camera, CameraError, FieldStop, LensCircle, PixelGrid, PixelPoint, View};
+use crate::camera::{Camera, CameraError, CameraModel, FieldStop, LensCircle, PixelGrid, PixelPoint, View};
 use crate::projection::ProjectionKind;
 use crate::projection::azimuthal::{FisheyeLens, Lens, LensError};
 use crate::sphere::{Angle, Orientation};
@@ -106,6 +106,11 @@ impl Camera for FisheyeCamera {
             grid: self.circle.place(fitted, radius)?,
             stop: FieldStop::circle(radius),
         })
+    }
+
+    fn with_field_of_view(&self, field_of_view: Angle) -> Option<CameraModel> {
+        let is_fitted = matches!(self.scale, LensScale::Circle(_));
+        is_fitted.then(|| Self { field_of_view, ..*self }.into())
     }
 
     fn natural_ratio(&self) -> f64 {

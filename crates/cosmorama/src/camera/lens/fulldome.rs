@@ -1,5 +1,5 @@
 use crate::camera::error::check_field_of_view;
-use crate::camera::{Camera, CameraError, FisheyeCamera, View};
+use crate::camera::{Camera, CameraError, CameraModel, FisheyeCamera, View};
 use crate::sphere::{Angle, Orientation};
 
 /// A domemaster: an equidistant fisheye whose circle is tangent to the square, seen looking up into the dome.
@@ -34,6 +34,10 @@ impl Camera for FulldomeCamera {
         let elevation = Angle::from_degrees(90.0) - self.tilt;
         let orientation = Orientation::from_yaw_pitch_roll(Angle::ZERO, elevation, Angle::ZERO);
         Ok(View { orientation, ..fisheye.view(width, height)? })
+    }
+
+    fn with_field_of_view(&self, field_of_view: Angle) -> Option<CameraModel> {
+        Some(Self { field_of_view, ..*self }.into())
     }
 
     fn natural_ratio(&self) -> f64 {

@@ -1,7 +1,7 @@
 use glam::DVec2;
 
 use crate::camera::error::{check_field_of_view, check_positive};
-use crate::camera::{Camera, CameraError, FieldStop, PixelGrid, PixelPoint, View};
+use crate::camera::{Camera, CameraError, CameraModel, FieldStop, PixelGrid, PixelPoint, View};
 use crate::projection::ProjectionKind;
 use crate::projection::azimuthal::{FisheyeLens, Lens, Stereographic};
 use crate::sphere::{Angle, Orientation};
@@ -42,6 +42,10 @@ impl Camera for StereographicCamera {
             ),
             stop: FieldStop::NONE,
         })
+    }
+
+    fn with_field_of_view(&self, field_of_view: Angle) -> Option<CameraModel> {
+        Some(Self { field_of_view, ..*self }.into())
     }
 
     fn natural_ratio(&self) -> f64 {

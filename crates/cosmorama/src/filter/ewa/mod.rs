@@ -40,11 +40,17 @@ impl Default for Ewa {
     }
 }
 
+impl Ewa {
+    /// Prepares the filter for texels in the order of a world's light, all of them finite.
+    pub fn of_texels<'w>(&self, world: &'w World, light: &'w [Rgba]) -> Box<dyn Prepared + 'w> {
+        Box::new(PreparedEwa { world, pinholes: Pinholes::of(world), light, average: Averager::new(self) })
+    }
+}
+
 impl Filter for Ewa {
     fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, LightError> {
         light.check(world)?;
-        let (light, pinholes) = (light.texels(), Pinholes::of(world));
-        Ok(Box::new(PreparedEwa { world, pinholes, light, average: Averager::new(self) }))
+        Ok(self.of_texels(world, light.texels()))
     }
 
     fn setup(&self, _: &World) -> SetupCost {

@@ -26,7 +26,8 @@ impl Uncovered {
     }
 
     /// Merges two sets of uncovered pixels.
-    pub(crate) fn union(self, other: Self) -> Self {
+    #[must_use]
+    pub fn union(self, other: Self) -> Self {
         let place = |uncovered: &Self| (uncovered.target, uncovered.row, uncovered.column);
         let first = if place(&other) < place(&self) { other } else { self };
         Self { pixels: self.pixels + other.pixels, extent: self.extent.union(other.extent), ..first }

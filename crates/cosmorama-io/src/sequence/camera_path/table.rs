@@ -1,0 +1,181 @@
+use std::path::Path;
+
+use cosmorama::sphere::{Angle, Orientation};
+
+use super::{CameraPathError, PathPose};
+
+/// Numbers by name, as typed.
+pub(super) struct Table<'a> {
+    /// Name of the file.
+    pub(super) name: &'a Path,
+    /// Word for a row in messages.
+    pub(super) unit: &'static str,
+    /// Names of the columns, in small letters.
+    pub(super) names: Vec<String>,
+    /// Place of the names; 0 where they are with the values.
+    pub(super) header: u64,
+    pub(super) rows: Vec<Row>,
+}
+
+/// A row of values.
+pub(super) struct Row {
+    /// Line in the file, or number of the pose.
+    pub(super) place: u64,
+    /// Values, in the order of the columns; those at the end may lack.
+    pub(super) values: Vec<Option<String>>,
+}
+
+/// Columns by their meaning.
+pub(super) struct Columns {
+    time: usize,
+    /// Frames for each unit of time.
+    rate: f64,
+    turn: Turn,
+    fov: Option<usize>,
+    pub(super) ignored: Vec<String>,
+}
+
+/// Columns of an orientation.
+enum Turn {
+    /// Yaw, and pitch and roll, which are 0 unless given.
+    Angles([Option<usize>; 3]),
+    /// A unit quaternion: w, x, y, z.
+    Quaternion([usize; 4]),
+}
+
+const ANGLES: [&str; 3] = ["yaw", "pitch", "roll"];
+const QUATERNION: [&str; 4] = ["qw", "qx", "qy", "qz"];
+
+/// Columns that a path may have.
+const EXPECTED: &str = "expected frame,yaw,pitch,roll or frame,qw,qx,qy,qz, and fov if it changes; time in seconds may stand for \
+                        frame";
+
+impl Table<'_> {
+    /// Creates an error about a row.
+    pub(super) fn error(&self, row: &Row, reason: &str) -> CameraPathError {
+        self.error_at(row.place, reason)
+    }
+
+    fn error_at(&self, place: u64, reason: &str) -> CameraPathError {
+        let place = if place == 0 { String::new() } else { format!("{} {place}: ", self.unit) };
+        CameraPathError { path: self.name.to_owned(), place, reason: reason.to_owned(), is_of_rate: false }
+    }
+
+    fn rate_error(&self, reason: &str) -> CameraPathError {
+        CameraPathError { is_of_rate: true, ..self.error_at(self.header, reason) }
+    }
+
+    /// Checks that the last row has a value for each column.
+    pub(super) fn check_length(&self) -> Result<(), CameraPathError> {
+        match self.rows.last() {
+            Some(row) if row.values.len() != self.names.len() => {
+                let (found, names) = (row.values.len(), self.names.join(","));
+                Err(self.error(row, &format!("{found} values, but {} columns: {names}", self.names.len())))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Finds the columns that make poses.
+    pub(super) fn columns(&self, fps: Option<f64>) -> Result<Columns, CameraPathError> {
+        if self.names.is_empty() {
+            return Err(self.error_at(0, &format!("no pose in it; {EXPECTED}")));
+        }
+        let twice = self.names.iter().enumerate().find(|(index, name)| self.names[..*index].contains(name));
+        if let Some((_, name)) = twice {
+            return Err(self.error_at(self.header, &format!("two columns {name}; give it once")));
+        }
+        let at = |name: &str| self.names.iter().position(|other| other == name);
+        let lacking = |name: &str| self.error_at(self.header, &format!("no column {name}; {EXPECTED}"));
+        let (time, rate) = match (at("frame"), at("time"), fps) {
+            (Some(_), _, Some(_)) => {
+                return Err(self.rate_error("poses are by frame, so that a rate (fps) has no effect; leave it out"));
+            }
+            (Some(frame), _, None) => (frame, 1.0),
+            (None, Some(time), Some(fps)) => (time, fps),
+            (None, Some(_), None) => {
+                return Err(self.rate_error("poses are by time, so that the rate of frames (fps) is needed; give it"));
+            }
+            (None, None, _) => return Err(lacking("frame")),
+        };
+        let angles = ANGLES.map(at);
+        let quaternion = QUATERNION.map(at);
+        let turn = match (angles[0], quaternion.iter().any(Option::is_some)) {
+            (Some(_), true) => {
+                return Err(self.error_at(self.header, "both angles and quaternions; give one of them"));
+            }
+            (None, true) => {
+                let lacks = QUATERNION.iter().zip(quaternion).find(|(_, column)| column.is_none());
+                if let Some((name, _)) = lacks {
+                    return Err(lacking(name));
+                }
+                Turn::Quaternion(quaternion.map(Option::unwrap_or_default))
+            }
+            (None, false) => return Err(lacking("yaw")),
+            (Some(_), false) => Turn::Angles(angles),
+        };
+        let known =
+            |name: &&String| ["frame", "time", "fov"].iter().chain(&ANGLES).chain(&QUATERNION).any(|k| k == name);
+        let ignored = self.names.iter().filter(|name| !known(name)).cloned().collect();
+        Ok(Columns { time, rate, turn, fov: at("fov"), ignored })
+    }
+
+    /// Returns a number of a row.
+    fn number(&self, row: &Row, column: usize) -> Result<f64, CameraPathError> {
+        let name = &self.names[column];
+        let Some(value) = row.values.get(column).cloned().flatten() else {
+            return Err(self.error(row, &format!("no {name}; {EXPECTED}")));
+        };
+        match value.parse::<f64>() {
+            Ok(number) if number.is_finite() => Ok(number),
+            _ if value.starts_with('"') => Err(self.error(row, &format!("{name} is {value}; expected a number"))),
+            _ => Err(self.error(row, &format!("{name} is '{value}'; expected a number"))),
+        }
+    }
+}
+
+impl Columns {
+    /// Returns the pose of a row.
+    pub(super) fn pose(&self, table: &Table, row: &Row) -> Result<PathPose, CameraPathError> {
+        let number = |column: usize| table.number(row, column);
+        let orientation = match &self.turn {
+            Turn::Angles(columns) => {
+                let [yaw, pitch, roll] = columns.map(|column| column.map_or(Ok(0.0), number));
+                let [yaw, pitch, roll] = [yaw?, pitch?, roll?].map(Angle::from_degrees);
+                Orientation::from_yaw_pitch_roll(yaw, pitch, roll)
+            }
+            Turn::Quaternion([w, x, y, z]) => {
+                let parts = [number(*w)?, number(*x)?, number(*y)?, number(*z)?];
+                Orientation::from_quaternion(parts).map_err(|length| {
+                    let found =
+                        format!("the quaternion's length is {length:.4}; expected 1: a rotation is a unit quaternion");
+                    table.error(row, &found)
+                })?
+            }
+        };
+        let fov = self.fov.map(number).transpose()?;
+        if let Some(fov) = fov.filter(|fov| !(*fov > 0.0 && *fov <= 360.0)) {
+            return Err(table.error(row, &format!("fov is {fov}; expected an angle above 0° and at most 360°")));
+        }
+        Ok(PathPose { frame: number(self.time)? * self.rate, orientation, fov: fov.map(Angle::from_degrees) })
+    }
+
+    /// Describes an angle that goes on by more than half a turn over several frames: the shortest way is taken, and may not be
+    /// the one that was meant. From a frame to the next it is a wrap.
+    pub(super) fn long_way(&self, table: &Table, row: &Row, frames: f64) -> Option<String> {
+        let Turn::Angles(columns) = &self.turn else { return None };
+        let index = table.rows.iter().position(|other| other.place == row.place)?;
+        let before = table.rows.get(index.checked_sub(1)?)?;
+        let far = |name: &str, column: Option<usize>| {
+            let (a, b) = (table.number(before, column?).ok()?, table.number(row, column?).ok()?);
+            (frames > 1.0 && (b - a).abs() > 180.0).then(|| {
+                format!(
+                    "{} {}: {name} goes from {a} to {b} in {frames} frames; the shortest way between two poses is taken, so that \
+                     whole turns need poses in between",
+                    table.unit, row.place
+                )
+            })
+        };
+        ANGLES.into_iter().zip(columns).find_map(|(name, column)| far(name, *column))
+    }
+}
