@@ -1,10 +1,11 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
+use cosmorama_io::FrameList;
 use cosmorama_spec::Size;
 
-use super::convert::LimitArgs;
-use super::geometry::GeometryArgs;
+use super::convert::{LimitArgs, frame_list};
+use super::geometry::{CameraArgs, GeometryArgs, ShutterArgs};
 use super::{SEE_MORE, projections, with_examples};
 
 /// Example commands in its help.
@@ -36,6 +37,13 @@ pub(crate) struct ExplainArgs {
     pub(crate) input_size: Option<Size>,
     #[command(flatten)]
     pub(crate) geometry: GeometryArgs,
+    #[command(flatten)]
+    pub(crate) camera: CameraArgs,
+    #[command(flatten)]
+    pub(crate) shutter: ShutterArgs,
+    /// Which frames of a moving camera: 5, 1-10 or 1-3,5,7-20:2 [default: all]
+    #[arg(long, value_name = "LIST", value_parser = frame_list, allow_hyphen_values = true, hide_short_help = true, help_heading = "Geometry")]
+    pub(crate) frames: Option<FrameList>,
     /// Write diagrams (SVG and PNG) into this folder
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub(crate) output: Option<PathBuf>,

@@ -53,7 +53,8 @@ impl From<ExplainArgs> for ExplanationSettings {
         Self {
             input: args.input,
             input_size: args.input_size,
-            geometry: args.geometry.into(),
+            geometry: GeometrySettings { blur: args.shutter.into(), ..moved(args.geometry, args.camera) },
+            frames: args.frames,
             limits: args.limits.into(),
             ..Self::default()
         }

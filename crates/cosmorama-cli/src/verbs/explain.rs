@@ -4,11 +4,10 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use cosmorama::camera::PixelRect;
-use cosmorama::explain::{Centre, Figures, Magnification, Report, ViewReport};
-use cosmorama::motion::Ramp;
+use cosmorama::explain::{Centre, FaceSize, Figures, Magnification, Report, ViewReport};
 use cosmorama::render::Needs;
 use cosmorama::world::World;
-use cosmorama_convert::{Explanation, ExplanationSettings, Picture, check_apart, refuse_existing};
+use cosmorama_convert::{Explanation, ExplanationSettings, PathExplanation, Picture, check_apart, refuse_existing};
 use cosmorama_io::pending::Hidden;
 use serde_json::{Value, json};
 
@@ -20,9 +19,8 @@ use crate::pipe::KeptStreams;
 
 /// Tells what a conversion will do.
 pub(super) fn run(mut args: ExplainArgs, console: &mut Console) -> Result<ExitCode> {
-    let angles = [args.geometry.yaw, args.geometry.pitch, args.geometry.roll];
-    if angles.iter().any(Ramp::moves) {
-        return Err(usage("explain tells of one picture; give --yaw, --pitch and --roll one angle each"));
+    if let Some(idle) = args.camera.idle(&args.geometry).or_else(|| args.shutter.idle()) {
+        return Err(usage(idle));
     }
     let mut kept = KeptStreams::default();
     args.input = args.input.map(|input| kept.input(&input)).transpose()?;
@@ -36,6 +34,7 @@ pub(super) fn run(mut args: ExplainArgs, console: &mut Console) -> Result<ExitCo
     }
     let worlds = explanation.worlds()?;
     let _folders = output.as_deref().map(|folder| make_folder(folder, console)).transpose()?;
+    let path = explanation.path(&worlds)?;
     let (mut text, mut reports, mut drawn) = (String::new(), Vec::new(), Vec::new());
     let mut needed = HashSet::new();
     for picture in explanation.pictures() {
@@ -57,6 +56,18 @@ pub(super) fn run(mut args: ExplainArgs, console: &mut Console) -> Result<ExitCo
         }
         reports.push(to_json(&report, &explanation, &files));
     }
+    if let Some(path) = &path {
+        text += &path_text(path, has_input);
+        let files = output.as_deref().map_or_else(Vec::new, |folder| diagram::files(folder, PATH_DIAGRAM).to_vec());
+        if let Some(folder) = &output {
+            let svg = Figures::path(&worlds[0], &path.views);
+            drawn.extend(diagram::draw(folder, PATH_DIAGRAM, &svg, &console.unfinished)?);
+        }
+        files.iter().for_each(|file| text += &format!("wrote    {}\n", file.display()));
+        if let Some(first) = reports.first_mut() {
+            first["path"] = path_json(path, has_input, &files);
+        }
+    }
     // All diagrams, or none.
     drawn.into_iter().try_for_each(Hidden::appear)?;
     if has_input {
@@ -71,6 +82,34 @@ pub(super) fn run(mut args: ExplainArgs, console: &mut Console) -> Result<ExitCo
         console.print(&text)?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Name of the diagram of a path.
+const PATH_DIAGRAM: &str = "path";
+
+/// Tells of a moving camera's path.
+fn path_text(path: &PathExplanation, has_input: bool) -> String {
+    let mut text = format!("\nframes   {}; the figures above are of the first\n{}", path.frames, path.report);
+    if path.gaps.is_empty() && has_input {
+        text += "inside   all of it is in the input, frame by frame\n";
+    }
+    path.gaps.iter().for_each(|gap| text += &format!("outside  {gap}\n"));
+    text
+}
+
+fn path_json(path: &PathExplanation, has_input: bool, files: &[PathBuf]) -> Value {
+    let report = &path.report;
+    let advised = |(name, size): &(String, FaceSize)| json!({ "view": name, "parity": [size.parity.0, size.parity.1] });
+    json!({
+        "frames": path.frames.to_string(),
+        "count": report.frames,
+        "seen": report.seen,
+        "seen_at_once": report.at_once,
+        "advised_size": report.advised.iter().map(advised).collect::<Vec<_>>(),
+        "inside": has_input.then_some(path.gaps.is_empty()),
+        "gaps": path.gaps,
+        "diagrams": files.iter().map(|file| file.display().to_string()).collect::<Vec<_>>(),
+    })
 }
 
 /// Refuses a folder that has the name of a drawing: one file was meant.
@@ -88,7 +127,10 @@ fn check_folder(folder: &Path) -> Result<()> {
 
 /// Checks that diagrams replace no input, nor any other file unless asked to.
 fn check_diagrams(folder: &Path, explanation: &Explanation, overwrite: bool) -> Result<()> {
-    let files: Vec<PathBuf> = explanation.pictures().iter().flat_map(|picture| diagrams(folder, picture)).collect();
+    let mut files: Vec<PathBuf> = explanation.pictures().iter().flat_map(|picture| diagrams(folder, picture)).collect();
+    if explanation.moves() {
+        files.extend(diagram::files(folder, PATH_DIAGRAM));
+    }
     files.iter().try_for_each(|path| check_apart(path, explanation.files()))?;
     if !overwrite {
         refuse_existing(files.iter().map(PathBuf::as_path))?;

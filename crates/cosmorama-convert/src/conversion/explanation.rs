@@ -2,9 +2,11 @@ use std::collections::HashSet;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use cosmorama::camera::View;
 use cosmorama::explain;
 use cosmorama::filter::FilterSettings;
 use cosmorama::world::World;
+use cosmorama_io::FrameList;
 use cosmorama_spec::Size;
 use rayon::ThreadPool;
 
@@ -14,10 +16,11 @@ use crate::input::spec_files::st_map::settled;
 use crate::input::{Builtin, Input, InputView};
 use crate::job::coverage::whole_worlds;
 use crate::job::files_read;
+use crate::job::gaps::{Shot, find_gaps_of_shots};
 use crate::job::options::filter;
-use crate::settings::{GeometrySettings, LimitSettings};
+use crate::settings::{CameraMovement, GeometrySettings, LimitSettings};
 use crate::source::{Access, DecodedPicture, Disk, Files, MemoryBudget};
-use crate::target::{Picture, aspect};
+use crate::target::{Movement, Picture, TargetView, aspect, time};
 
 /// Settings of an explanation, possibly for an input that does not exist yet.
 #[derive(Clone, Debug)]
@@ -26,8 +29,10 @@ pub struct ExplanationSettings {
     pub input: Option<String>,
     /// Assumed size of the input, or of each face, if it does not exist yet. By default, as fine as the output at its centre.
     pub input_size: Option<Size>,
-    /// Projections, size, orientation and filter.
+    /// Projections, size, orientation and filter. Of a moving camera, pictures are those of the first frame.
     pub geometry: GeometrySettings,
+    /// Frames of a moving camera; those of its path or of the input, unless given.
+    pub frames: Option<FrameList>,
     /// Limits of threads and memory.
     pub limits: LimitSettings,
     /// Source of the bytes of inputs; disk by default.
@@ -40,6 +45,7 @@ impl Default for ExplanationSettings {
             input: None,
             input_size: None,
             geometry: GeometrySettings::default(),
+            frames: None,
             limits: LimitSettings::default(),
             files: Arc::new(Disk),
         }
@@ -50,12 +56,31 @@ impl Default for ExplanationSettings {
 pub struct Explanation {
     input: Input,
     pictures: Vec<Picture>,
+    /// Movement of the camera, with the views that it moves.
+    movement: Option<(Movement, Vec<TargetView>)>,
+    /// Whether the input exists, so that it may lack something.
+    has_input: bool,
     filter: FilterSettings,
     memory: MemoryBudget,
     /// Files that are read, by their real paths.
     files: HashSet<PathBuf>,
     pool: ThreadPool,
 }
+
+/// Explanation of a moving camera's path.
+pub struct PathExplanation {
+    /// Frames.
+    pub frames: FrameList,
+    /// Share of the world that is seen, and suitable sizes.
+    pub report: explain::PathReport,
+    /// Parts that the input lacks, with the frames that need them.
+    pub gaps: Vec<String>,
+    /// Views of each frame.
+    pub views: Vec<Vec<View>>,
+}
+
+/// Input, pictures, movement and filter.
+type Resolved = (Input, Vec<Picture>, Option<(Movement, Vec<TargetView>)>, FilterSettings);
 
 impl ExplanationSettings {
     /// Finds the files and the pictures. The size of the output follows from an existing input; the size of an input
@@ -64,18 +89,20 @@ impl ExplanationSettings {
         let mut diagnostics = Vec::new();
         let result = threads(self.limits.threads)
             .and_then(|pool| Ok((pool.install(|| self.resolve(&mut diagnostics))?, pool)))
-            .map(|((input, pictures, filter), pool)| Explanation {
+            .map(|((input, pictures, movement, filter), pool)| Explanation {
                 files: files_read(&input, &self.geometry),
                 memory: MemoryBudget::new(self.limits.memory),
+                has_input: self.input.is_some(),
                 input,
                 pictures,
+                movement,
                 filter,
                 pool,
             });
         Outcome { result, diagnostics }
     }
 
-    fn resolve(&self, warnings: &mut Vec<Diagnostic>) -> Result<(Input, Vec<Picture>, FilterSettings)> {
+    fn resolve(&self, warnings: &mut Vec<Diagnostic>) -> Result<Resolved> {
         let memory = MemoryBudget::new(self.limits.memory);
         let access = Access { files: &*self.files, memory, decoded: &DecodedPicture::default() };
         let geometry = &settled(&self.geometry, self.input.as_deref(), access, warnings)?;
@@ -86,12 +113,43 @@ impl ExplanationSettings {
                 format!("{TO} is missing: say which projection the output is to have, as in {example}"),
             ));
         }
-        let (mut input, pictures) = self.find(geometry, access, warnings)?;
+        let (mut input, mut pictures) = self.find(geometry, access, warnings)?;
+        let movement = self.moved(geometry, (&mut input, &mut pictures), access, warnings)?;
         warnings.extend(input.diagnostics());
         warnings.extend(pictures.first().and_then(|picture| aspect::warning(geometry, &picture.view)));
         input.fit_eyes(pictures.iter().any(|picture| picture.eye.is_some()), warnings);
         let filter = filter(&self.geometry, warnings);
-        Ok((input, pictures, filter))
+        Ok((input, pictures, movement, filter))
+    }
+
+    /// Resolves the movement of the camera, and turns the pictures to its first frame.
+    fn moved(
+        &self,
+        geometry: &GeometrySettings,
+        (input, pictures): (&mut Input, &mut [Picture]),
+        access: Access,
+        warnings: &mut Vec<Diagnostic>,
+    ) -> Result<Option<(Movement, Vec<TargetView>)>> {
+        let name = |picture: &Picture| picture.label().unwrap_or_else(|| "the output".to_owned());
+        let target = |picture: &Picture| TargetView {
+            name: name(picture),
+            view: picture.view.clone(),
+            eye: picture.eye,
+            level: 0,
+        };
+        let targets: Vec<TargetView> = pictures.iter().map(target).collect();
+        let frames = (&input.frames[..], self.frames.as_ref());
+        let Some((movement, frames)) = Movement::resolve(geometry, &targets, frames, access, warnings)? else {
+            return Ok(None);
+        };
+        let first = frames.first().copied().flatten().unwrap_or_default();
+        let turned = movement.views(&targets, &movement.pose(time(first)))?;
+        pictures.iter_mut().zip(turned).for_each(|(picture, target)| picture.view = target.view);
+        input.frames = frames;
+        if let Some(CameraMovement::Path { file, .. }) = &geometry.camera {
+            input.beside.push(file.into());
+        }
+        Ok(Some((movement, targets)))
     }
 
     fn find(
@@ -106,7 +164,9 @@ impl ExplanationSettings {
                  explain {FROM} SPEC"
             ))),
             (Some(pattern), from) => {
-                let input = Input::find(pattern, from.as_ref(), None, access, warnings)?;
+                let is_sequence = geometry.camera.is_some() && Input::may_be_sequence(pattern);
+                let wanted = self.frames.as_ref().filter(|_| is_sequence);
+                let input = Input::find(pattern, from.as_ref(), wanted, access, warnings)?;
                 let pictures = Picture::all(geometry, None, Some(input.pixels_per_radian()))?;
                 Ok((input, pictures))
             }
@@ -150,6 +210,46 @@ impl Explanation {
     pub fn report(&self, worlds: &[World], picture: &Picture) -> explain::Report {
         let world = &worlds[picture.world(worlds.len())];
         self.pool.install(|| explain::Report::of(world, &picture.view, &self.filter))
+    }
+
+    /// Returns whether the camera moves.
+    pub fn moves(&self) -> bool {
+        self.movement.is_some()
+    }
+
+    /// Explains the path of a moving camera; `None` where it stands still.
+    ///
+    /// # Errors
+    /// When its field of view goes beyond what the projection can show.
+    pub fn path(&self, worlds: &[World]) -> Result<Option<PathExplanation>> {
+        let Some((movement, targets)) = &self.movement else { return Ok(None) };
+        let numbers: Vec<u64> = self.input.frames.iter().copied().flatten().collect();
+        // Of two eyes, the left one's.
+        let of_first = |target: &TargetView| target.world(worlds.len()) == 0;
+        let views_of = |frame: &u64| -> Result<Vec<View>> {
+            let views = movement.views(targets, &movement.pose(time(*frame)))?;
+            Ok(views.into_iter().filter(of_first).map(|target| target.view).collect())
+        };
+        let views: Vec<Vec<View>> = numbers.iter().map(views_of).collect::<Result<_>>()?;
+        let report = self.pool.install(|| explain::PathReport::of(&worlds[0], &views));
+        let gaps = if self.has_input { self.gaps(worlds, (movement, targets))? } else { Vec::new() };
+        Ok(Some(PathExplanation { frames: FrameList::new(numbers), report, gaps, views }))
+    }
+
+    /// Finds what the input lacks for the frames of a moving camera.
+    fn gaps(&self, worlds: &[World], (movement, targets): (&Movement, &[TargetView])) -> Result<Vec<String>> {
+        let shots = Shot::all(movement, targets, &self.input.frames)?;
+        let (mut gaps, count) = (Vec::new(), worlds.len());
+        for (index, (views, world)) in self.input.worlds.iter().zip(worlds).enumerate() {
+            let (mut views, mut warnings) = (views.clone(), Vec::new());
+            let find = || find_gaps_of_shots(&mut views, (world, index, count), &shots, &self.filter, &mut warnings);
+            match self.pool.install(find) {
+                Ok(found) => gaps.extend(found),
+                Err(error) => gaps.push(error.message().to_string()),
+            }
+            gaps.extend(warnings.iter().map(ToString::to_string));
+        }
+        Ok(gaps)
     }
 
     /// Returns the views that have no file yet.

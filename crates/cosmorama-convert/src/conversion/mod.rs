@@ -10,7 +10,7 @@ mod world_light;
 
 pub use check::Checked;
 pub use check::threads;
-pub use explanation::{Explanation, ExplanationSettings};
+pub use explanation::{Explanation, ExplanationSettings, PathExplanation};
 pub use observer::{Observer, Quiet, Stop, Work};
 pub use report::Report;
 pub use world_light::{Radiance, WorldLight};

@@ -92,7 +92,7 @@ fn move_camera(
         return Err(usage(format!("maps of light have no camera that could move; leave {PATH} out")));
     }
     let frames = (&input.frames[..], settings.frames.as_ref());
-    let Some((movement, frames)) = Movement::resolve(geometry, target, frames, access, warnings)? else {
+    let Some((movement, frames)) = Movement::resolve(geometry, &target.views, frames, access, warnings)? else {
         if geometry.blur.is_some() {
             let message = format!("{SHUTTER} has no effect: the camera stands still; {PATH} or {YAW} A..B moves it");
             warnings.push(Diagnostic::warning(Code::NoEffect, message));
@@ -195,7 +195,8 @@ impl ConvertJob {
 
     /// Checks that the input covers the output, and that memory suffices.
     fn cover(&mut self, warnings: &mut Vec<Diagnostic>) -> Result<()> {
-        let shots = self.shots()?;
+        let shots = self.movement.as_ref().map(|movement| Shot::all(movement, &self.target.views, &self.input.frames));
+        let shots = shots.transpose()?;
         let Self { input, target, filter, memory, .. } = self;
         let whole = whole_worlds(input, *memory)?;
         if let Some(lighting) = &self.lighting {
@@ -228,28 +229,9 @@ impl ConvertJob {
     /// Returns the target's views in a pose.
     pub(crate) fn views_in(&self, pose: Option<&Pose>) -> Result<Vec<TargetView>> {
         match (&self.movement, pose) {
-            (Some(movement), Some(pose)) => movement.views(&self.target, pose),
+            (Some(movement), Some(pose)) => movement.views(&self.target.views, pose),
             _ => Ok(self.target.views.clone()),
         }
-    }
-
-    /// Returns the views of all poses of a moving camera, with their frames: of an exposure, those of its ends and its middle.
-    fn shots(&self) -> Result<Option<Vec<Shot>>> {
-        let Some(movement) = &self.movement else { return Ok(None) };
-        let mut shots: Vec<(Vec<Pose>, Shot)> = Vec::new();
-        for frame in self.input.frames.iter().copied().flatten() {
-            let exposed = movement.blur.map_or_else(Vec::new, |blur| blur.shutter.division(time(frame)).to_vec());
-            let mut poses = vec![movement.pose(time(frame))];
-            poses.extend(exposed.into_iter().map(|time| movement.pose(time)));
-            poses.dedup();
-            if let Some((_, shot)) = shots.last_mut().filter(|(last, _)| *last == poses) {
-                shot.frames.push(frame);
-                continue;
-            }
-            let views = poses.iter().map(|pose| movement.views(&self.target, pose)).collect::<Result<Vec<_>>>()?;
-            shots.push((poses, Shot { frames: vec![frame], views: views.into_iter().flatten().collect() }));
-        }
-        Ok(Some(shots.into_iter().map(|(_, shot)| shot).collect()))
     }
 
     /// Finds out whether a shutter blurs any frame, and keeps memory for that.
@@ -281,7 +263,7 @@ impl ConvertJob {
             return Ok(None);
         };
         let frame = time(frame.unwrap_or_default());
-        let ends = movement.views_at(&self.target, &blur.shutter.division(frame))?;
+        let ends = movement.views_at(&self.target.views, &blur.shutter.division(frame))?;
         let needed = |(index, target): (usize, &TargetView)| {
             let views: Vec<View> = ends.iter().map(|views| views[index].view.clone()).collect();
             let texel = self.worlds.get(target.world(self.worlds.len())).map_or(0.0, World::texel_pitch);

@@ -2,18 +2,40 @@
 
 use cosmorama::camera::{Canvas, PixelRect, View};
 use cosmorama::filter::FilterSettings;
+use cosmorama::motion::Pose;
 use cosmorama::render::{Accuracy, Need, Needs, Uncovered};
 use cosmorama::world::World;
 use cosmorama_io::FrameList;
 
 use crate::diagnostic::{Code, ConvertError, Diagnostic, PITCH, ROLL, Result, YAW, failed_as};
 use crate::input::InputView;
-use crate::target::TargetView;
+use crate::target::{Movement, TargetView, time};
 
 /// Views of the target that belong to some frames: in one pose, or in the poses of one exposure.
 pub(crate) struct Shot {
     pub(crate) frames: Vec<u64>,
     pub(crate) views: Vec<TargetView>,
+}
+
+impl Shot {
+    /// Returns the shots of all frames: of an exposure, its ends and its middle. Frames that follow one another in one pose
+    /// share a shot.
+    pub(crate) fn all(movement: &Movement, targets: &[TargetView], frames: &[Option<u64>]) -> Result<Vec<Self>> {
+        let mut shots: Vec<(Vec<Pose>, Self)> = Vec::new();
+        for frame in frames.iter().copied().flatten() {
+            let exposed = movement.blur.map_or_else(Vec::new, |blur| blur.shutter.division(time(frame)).to_vec());
+            let mut poses = vec![movement.pose(time(frame))];
+            poses.extend(exposed.into_iter().map(|time| movement.pose(time)));
+            poses.dedup();
+            if let Some((_, shot)) = shots.last_mut().filter(|(last, _)| *last == poses) {
+                shot.frames.push(frame);
+                continue;
+            }
+            let views = poses.iter().map(|pose| movement.views(targets, pose)).collect::<Result<Vec<_>>>()?;
+            shots.push((poses, Self { frames: vec![frame], views: views.into_iter().flatten().collect() }));
+        }
+        Ok(shots.into_iter().map(|(_, shot)| shot).collect())
+    }
 }
 
 /// Finds what is missing in the views of a world, and marks the views that are needed.
@@ -61,7 +83,7 @@ fn is_whole_panorama(views: &mut [InputView]) -> bool {
 
 /// Finds what is missing in the views of a world over all frames of a moving camera, and marks the views that are needed. Gaps
 /// name their frames. The world is that of an index among so many.
-pub(super) fn find_gaps_of_shots(
+pub(crate) fn find_gaps_of_shots(
     views: &mut [InputView],
     (nominal, index, count): (&World, usize, usize),
     shots: &[Shot],

@@ -3,7 +3,7 @@
 mod content;
 mod convert_job;
 pub(crate) mod coverage;
-mod gaps;
+pub(crate) mod gaps;
 mod memory_needs;
 pub(crate) mod options;
 pub(crate) mod outputs;

@@ -10,7 +10,7 @@ use crate::diagnostic::{
 };
 use crate::settings::{CameraMovement, GeometrySettings, MotionBlur};
 use crate::source::Access;
-use crate::target::{Target, TargetView};
+use crate::target::TargetView;
 
 /// Movement of the target's camera: its views are a function of time, in frames.
 pub(crate) struct Movement {
@@ -35,7 +35,7 @@ impl Movement {
     /// or that the path has. Also returns these frames.
     pub(crate) fn resolve(
         geometry: &GeometrySettings,
-        target: &Target,
+        targets: &[TargetView],
         (frames, wanted): (&[Option<u64>], Option<&FrameList>),
         access: Access,
         warnings: &mut Vec<Diagnostic>,
@@ -66,7 +66,7 @@ impl Movement {
         };
         let mut movement = Self { course, zoom: None, blur: geometry.blur };
         if sequence.first().is_some_and(|frame| movement.pose(time(*frame)).fov.is_some()) {
-            movement.zoom = Some(placement(geometry, target, camera)?);
+            movement.zoom = Some(placement(geometry, targets, camera)?);
         }
         let frames = sequence.into_iter().map(Some).collect();
         Ok(Some((movement, frames)))
@@ -81,12 +81,12 @@ impl Movement {
     }
 
     /// Returns the target's views at several times.
-    pub(crate) fn views_at(&self, target: &Target, times: &[f64]) -> Result<Vec<Vec<TargetView>>> {
-        times.iter().map(|time| self.views(target, &self.pose(*time))).collect()
+    pub(crate) fn views_at(&self, targets: &[TargetView], times: &[f64]) -> Result<Vec<Vec<TargetView>>> {
+        times.iter().map(|time| self.views(targets, &self.pose(*time))).collect()
     }
 
     /// Returns the target's views in a pose.
-    pub(crate) fn views(&self, target: &Target, pose: &Pose) -> Result<Vec<TargetView>> {
+    pub(crate) fn views(&self, targets: &[TargetView], pose: &Pose) -> Result<Vec<TargetView>> {
         let posed = |target: &TargetView| {
             let view = match (&self.zoom, pose.fov) {
                 (Some(placement), Some(fov)) => {
@@ -99,7 +99,7 @@ impl Movement {
             };
             Ok(TargetView { view: view.turned(pose.orientation), ..target.clone() })
         };
-        target.views.iter().map(posed).collect()
+        targets.iter().map(posed).collect()
     }
 }
 
@@ -157,9 +157,9 @@ fn frames_of(file: &str, track: &Track, sequence: Vec<u64>) -> Result<Vec<u64>> 
 }
 
 /// Returns the place of a target whose field of view can change.
-fn placement(geometry: &GeometrySettings, target: &Target, camera: &CameraMovement) -> Result<Placement> {
+fn placement(geometry: &GeometrySettings, targets: &[TargetView], camera: &CameraMovement) -> Result<Placement> {
     let zoomed = geometry.to.as_ref().and_then(|spec| match spec {
-        Spec { shape: Shape::Single(single), stereo: None, .. } if target.views.len() == 1 => {
+        Spec { shape: Shape::Single(single), stereo: None, .. } if targets.len() == 1 => {
             let fov = single.placement.frame.with_field_of_view(cosmorama::sphere::Angle::from_degrees(60.0));
             fov.map(|_| single.placement.clone())
         }

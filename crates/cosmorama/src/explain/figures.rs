@@ -1,5 +1,5 @@
 use super::unfolded::Underlay;
-use super::{footprints, ownership, unfolded};
+use super::{footprints, ownership, path_figure, unfolded};
 use crate::camera::View;
 use crate::render::Needs;
 use crate::world::World;
@@ -22,6 +22,12 @@ impl Figures<'_> {
     /// target's field of view as a curve.
     pub fn unfolded(&self, needs: &Needs, underlays: &[Underlay]) -> String {
         unfolded::draw(self.world, self.target, needs, underlays)
+    }
+
+    /// Draws the path of a camera over the unfolded world, from the views of all its frames. Bright is what some frame sees; dots
+    /// are the middles of frames.
+    pub fn path(world: &World, frames: &[Vec<View>]) -> String {
+        path_figure::draw(world, frames)
     }
 
     /// Draws figure 4: which view gives which pixel of the target, with the edges of views as curves.

@@ -4,6 +4,8 @@ mod figures;
 mod footprints;
 mod magnification;
 mod ownership;
+mod path;
+mod path_figure;
 mod report;
 mod sheet;
 mod survey;
@@ -12,6 +14,8 @@ mod unfolded;
 
 pub use figures::Figures;
 pub use magnification::{FaceSize, Magnification};
+pub use path::PathReport;
 pub use report::{Centre, Gathered, Memory, Report, ViewReport};
 pub use sheet::lettering;
+use text::Percent;
 pub use unfolded::Underlay;

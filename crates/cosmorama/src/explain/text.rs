@@ -89,7 +89,7 @@ impl Display for Magnification {
 }
 
 /// A fraction as a percentage.
-struct Percent(f64);
+pub(super) struct Percent(pub(super) f64);
 
 impl Display for Percent {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {

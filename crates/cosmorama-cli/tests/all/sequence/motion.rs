@@ -284,3 +284,33 @@ fn every_target_and_source_is_blurred() {
     let message = bench.fail(2, &[&["convert", "builtin:demo", "h_#.png"], &shot[..], &ellipse].concat());
     assert_says(&message, &["a formula has none"]);
 }
+
+#[test]
+fn explain_tells_what_a_path_sees_before_it_is_rendered() {
+    let bench = bench_with("frame,yaw,pitch,roll\n1,0,0,0\n10,0,-80,0\n");
+    bench.faces("face_", 64);
+    let to = ["--to", "perspective:vfov=45", "--size", "320x240"];
+    let explain = |input: &[&str], extra: &[&str]| bench.succeed(&[&["explain"], input, &to[..], extra].concat());
+    let text = explain(&["face_{face}.png"], &["--path", "path.csv"]);
+    // A view of 45° by 3:4 covers about six percent of the world (Greene 1986); a pixel at its centre is tan 22.5°/120 wide: 120/tan 22.5° is half of 579.
+    assert_says(
+        &text,
+        &["frames   1-10;", "10 frames see", "5.9 % to 6.0 % at once", "parity   579x579 for", "inside   all of it"],
+    );
+    std::fs::remove_file(bench.path("face_bottom.png")).unwrap();
+    let text = explain(&["face_{face}.png"], &["--path", "path.csv"]);
+    assert_says(&text, &["outside  frames 4-10: down: ", "is missing"]);
+    let extra = ["--path", "path.csv", "--frames", "1-2", "--json", "--output", "diagrams"];
+    let report: serde_json::Value = serde_json::from_str(&explain(&["face_{face}.png"], &extra)).unwrap();
+    let path = &report[0]["path"];
+    assert_eq!((&path["inside"], &path["count"], &path["frames"]), (&true.into(), &2.into(), &"1,2".into()));
+    let svg = String::from_utf8(bench.bytes("diagrams/path.svg")).unwrap();
+    assert!(svg.matches("<ellipse").count() >= 4 && bench.path("diagrams/path.png").is_file(), "{svg}");
+    // Of an input that does not exist yet, sizes are advised; a whole turn of a level view sees a ring.
+    let planned = ["--from", "cube", "--input-size", "64"];
+    let text = explain(&planned, &["--yaw", "0..360", "--frames", "1-37"]);
+    assert_says(&text, &["37 frames see", "parity   579x579"]);
+    assert!(!text.contains("inside"), "{text}");
+    let message = bench.fail(2, &[&["explain", "face_{face}.png"], &to[..], &["--yaw", "0..360"]].concat());
+    assert_says(&message, &["--frames is missing"]);
+}

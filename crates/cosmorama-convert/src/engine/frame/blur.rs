@@ -73,7 +73,7 @@ impl Engine<'_> {
             let part = |k: usize| k as f64 / moments.len() as f64;
             let share = Share { whole: progress, from: part(k), to: part(k + 1) };
             let pose = movement.pose(moment.time);
-            let views = movement.views(&self.job.target, &pose)?;
+            let views = movement.views(&self.job.target.views, &pose)?;
             let beginning = Share { to: share.from, ..share };
             let made =
                 Posed::new(self.job, (Some(pose), views, false), &beginning).map_err(|Stopped| self.stopped())?;
@@ -111,7 +111,7 @@ impl Engine<'_> {
         progress: &dyn Progress,
     ) -> Result<Vec<Levels>> {
         let times: Vec<f64> = moments.iter().map(|moment| moment.time).collect();
-        let views = movement.views_at(&self.job.target, &times)?;
+        let views = movement.views_at(&self.job.target.views, &times)?;
         let posed = self.posed(frame, progress)?;
         let mut shares = Shares::new(progress, self.views_of(frame, &posed.views).into_iter());
         let mut view = |index: usize| {
