@@ -50,6 +50,8 @@ pub struct Conversion {
     pub in_primaries: Option<Primaries>,
     /// Whether ICC profiles of inputs are ignored.
     pub ignore_profile: bool,
+    /// Colour spaces of an OpenColorIO config; files' own tags, unless given.
+    pub ocio: OcioSettings,
     /// Part of the input's OpenEXR files, by name or by number from 0; the first with a picture, unless given.
     pub part: Option<String>,
     /// Channels of the input's OpenEXR files, in which `*` stands for any letters; all, unless given.
@@ -204,6 +206,26 @@ impl LightSettings {
     }
 }
 
+/// Colour spaces of an OpenColorIO config. They need the feature `ocio`.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct OcioSettings {
+    /// Config: a file (`.ocio`, `.ocioz`), always read from disk, or a built-in one (`ocio://NAME`).
+    pub config: Option<String>,
+    /// Colour space of the inputs.
+    pub in_space: Option<String>,
+    /// Colour space of the outputs; the inputs', unless this or `view` is given.
+    pub out_space: Option<String>,
+    /// Display and view that the outputs are made for, as `DISPLAY/VIEW`.
+    pub view: Option<String>,
+}
+
+impl OcioSettings {
+    /// Returns whether any of them is given.
+    pub fn is_asked(&self) -> bool {
+        *self != Self::default()
+    }
+}
+
 /// Treatment of channels that hold no light. The rule for labels is set by the filter.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LayerSettings {
@@ -284,6 +306,7 @@ impl Default for Conversion {
             primaries: None,
             in_primaries: None,
             ignore_profile: false,
+            ocio: OcioSettings::default(),
             part: None,
             channels: Vec::new(),
             layers: LayerSettings::default(),

@@ -1,6 +1,6 @@
 use clap::builder::{NonEmptyStringValueParser, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
-use cosmorama_convert::{DepthKind, NormalSpace};
+use cosmorama_convert::{DepthKind, NormalSpace, OcioSettings};
 use cosmorama_io::FrameList;
 use cosmorama_spec::{
     Colour, CompressionLevel, DepthName, FrameRanges, FrameRangesError, MemorySize, Missing, PrimariesName,
@@ -26,6 +26,38 @@ pub(super) const EXAMPLES: [&str; 10] = [
     "cosmorama convert panorama.exr map.exr --to fulldome --size 2048 --st-map",
     "cosmorama convert plate.exr undistorted.exr --from st-map:file=undistort.exr",
 ];
+
+/// Colour spaces of an OpenColorIO config.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct OcioArgs {
+    /// OpenColorIO config: a file (.ocio, .ocioz) or ocio://default [default: $OCIO]
+    ///
+    /// It says what colours are, instead of files' own tags and the options above: code values are brought from --in-space to its
+    /// scene_linear role, filtered there, and brought to --out-space or --view. Needs a program built with the feature ocio.
+    #[arg(long, value_name = "CONFIG", value_parser = NonEmptyStringValueParser::new(), hide_short_help = true, help_heading = "Light")]
+    ocio: Option<String>,
+    /// The input's colour space, by its name in the config
+    #[arg(long, value_name = "S", value_parser = NonEmptyStringValueParser::new(), hide_short_help = true, help_heading = "Light")]
+    in_space: Option<String>,
+    /// The output's colour space, by its name in the config [default: the input's]
+    #[arg(long, value_name = "S", value_parser = NonEmptyStringValueParser::new(), hide_short_help = true, help_heading = "Light")]
+    out_space: Option<String>,
+    /// The config's display and view that the output is made for, instead of --out-space
+    #[arg(long, value_name = "DISPLAY/VIEW", value_parser = NonEmptyStringValueParser::new(), hide_short_help = true, help_heading = "Light")]
+    view: Option<String>,
+}
+
+/// Returns what is asked of a config. `$OCIO` names it where the command line names a space or a view alone.
+impl From<OcioArgs> for OcioSettings {
+    fn from(args: OcioArgs) -> Self {
+        let asked = Self { config: args.ocio, in_space: args.in_space, out_space: args.out_space, view: args.view };
+        if !asked.is_asked() {
+            return asked;
+        }
+        let usual = || std::env::var("OCIO").ok().filter(|name| !name.is_empty());
+        Self { config: asked.config.or_else(usual), ..asked }
+    }
+}
 
 /// Turn a world, in whatever form, into another projection.
 #[derive(Clone, Debug, Args)]
@@ -78,6 +110,8 @@ pub(crate) struct ConvertArgs {
     /// For a profile that is damaged, or holds tables of colours, which are not followed.
     #[arg(long, hide_short_help = true, help_heading = "Light")]
     pub(crate) ignore_profile: bool,
+    #[command(flatten)]
+    pub(crate) ocio: OcioArgs,
     /// OpenEXR: the channels to take, as in 'R,G,B,diffuse.*' [default: all]
     ///
     /// Names in which * stands for any letters. All that are taken go into OpenEXR outputs, under their names and in their sample

@@ -28,6 +28,7 @@ impl From<ConvertArgs> for Conversion {
             primaries: args.primaries.map(|name| name.0),
             in_primaries: args.in_primaries.map(|name| name.0),
             ignore_profile: args.ignore_profile,
+            ocio: args.ocio.into(),
             part: args.part,
             channels: args.channels,
             layers: LayerSettings { depth: args.depth_kind, normals: args.normals },

@@ -28,7 +28,7 @@ pub(crate) fn check_labels(filter: &FilterSettings, input: &Input, light: &Light
             let found = format!("{FILTER} labels: {path} has {} bits and the output {}", header.depth, light.depth);
             return Err(usage(format!("{found}; give {DEPTH} {}, and inputs of one depth", header.depth)));
         }
-        let unchanged = FileColours { transfer: light.transfer.clone(), matrix: None };
+        let unchanged = FileColours { transfer: light.transfer.clone(), conversion: None };
         if light.colours(header.channels, header.depth, &header.metadata) != unchanged {
             let found = format!("{FILTER} labels: the output would be encoded otherwise than {path}");
             let remedy = "leave transfer functions and primaries alone, and give inputs of one kind";

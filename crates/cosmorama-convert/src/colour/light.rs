@@ -1,11 +1,13 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use cosmorama::raster::{Channels, ColourMatrix, Depth, Primaries, Rgba, Transfer};
+use cosmorama::raster::{Channels, Depth, Primaries, Rgba, Transfer};
 use cosmorama_io::{Format, Header, Layers, Metadata};
 use cosmorama_spec::{Missing, TransferName};
 
 use super::carried::carried;
+use super::conversion::LightConversion;
+use super::ocio::ColourConfig;
 use super::profile;
 use super::working::{Working, clips, white_of};
 use crate::diagnostic::{BACKGROUND, Code, DEPTH, Diagnostic, MISSING, Result, usage_as};
@@ -38,6 +40,8 @@ pub(crate) struct Light {
     pub(super) carries: Option<Format>,
     /// Whether ICC profiles of inputs are ignored.
     ignores_profiles: bool,
+    /// Spaces of the OpenColorIO config that says what colours are, instead of files.
+    config: Option<Arc<ColourConfig>>,
 }
 
 /// Conversion of a file's code values to working light.
@@ -45,7 +49,7 @@ pub(crate) struct Light {
 pub(crate) struct FileColours {
     pub(crate) transfer: Transfer,
     /// Conversion of the decoded light; `None` where nothing has to be done.
-    pub(crate) matrix: Option<ColourMatrix>,
+    pub(crate) conversion: Option<LightConversion>,
 }
 
 /// Requested transfer functions of the input.
@@ -110,6 +114,11 @@ impl Light {
             clips: clips(depth, target.format),
             carries: (!args.strip).then_some(target.format),
             ignores_profiles: args.ignore_profile,
+            config: None,
+        };
+        let light = match ColourConfig::open(args, &headers, warnings)? {
+            Some(config) => light.with_config(args, config, target.format, warnings)?,
+            None => light,
         };
         for (view, header, _) in input.present() {
             light.check_profile(&view.files.path(input.frames.first().copied().flatten()), &header.metadata)?;
@@ -117,10 +126,35 @@ impl Light {
         Ok(light)
     }
 
+    /// Returns light of an OpenColorIO config instead: code values are those of its spaces.
+    fn with_config(
+        self,
+        args: &Conversion,
+        config: ColourConfig,
+        format: Format,
+        warnings: &mut Vec<Diagnostic>,
+    ) -> Result<Self> {
+        let background = args.background.map_or(Ok(self.background), |colour| config.colour(colour))?;
+        let metadata = config.tagged(self.metadata, format, self.depth, warnings);
+        // Negative light of inputs is the config's business.
+        Ok(Self {
+            transfer: Transfer::Linear,
+            metadata,
+            background,
+            clips: false,
+            config: Some(Arc::new(config)),
+            ..self
+        })
+    }
+
     /// Refuses a file whose ICC profile can neither be applied nor be passed on unchanged.
     pub(crate) fn check_profile(&self, path: &Path, metadata: &Metadata) -> Result<()> {
         let goes_along = metadata.icc.is_some() && metadata.icc == self.metadata.icc;
-        if self.ignores_profiles || goes_along { Ok(()) } else { profile::check(path, metadata) }
+        if self.ignores_profiles || goes_along || self.config.is_some() {
+            Ok(())
+        } else {
+            profile::check(path, metadata)
+        }
     }
 
     /// Returns the bytes of an output's samples.
@@ -131,9 +165,26 @@ impl Light {
 
     /// Returns how an input file's code values become light.
     pub(crate) fn colours(&self, channels: Channels, depth: Depth, metadata: &Metadata) -> FileColours {
+        if let Some(config) = &self.config {
+            return FileColours { transfer: Transfer::Linear, conversion: Some(config.input()) };
+        }
         let seen = profile::seen(metadata, self.ignores_profiles);
         let transfer = self.input.of(depth, &seen);
-        FileColours { matrix: self.working.matrix(channels, &seen, &transfer), transfer }
+        let conversion = self.working.matrix(channels, &seen, &transfer).map(LightConversion::Matrix);
+        FileColours { conversion, transfer }
+    }
+
+    /// Returns what brings working light to the outputs' colour space, before it is encoded; `None` where nothing has to be done.
+    pub(crate) fn output(&self) -> Option<LightConversion> {
+        self.config.as_ref().map(|config| config.output())
+    }
+
+    /// Returns a colour that was given by name or number, in Rec. 709, as working light.
+    pub(crate) fn colour(&self, colour: Rgba) -> Result<Rgba> {
+        match &self.config {
+            Some(config) => config.colour(colour),
+            None => Ok(self.working.colour(colour)),
+        }
     }
 }
 
@@ -152,6 +203,7 @@ fn channels(
     };
     // Light by a formula is coloured.
     let colour = headers.is_empty()
+        || args.ocio.is_asked()
         || headers.iter().any(|header| header.channels.is_colour())
         || [background, fill].into_iter().flatten().any(coloured);
     let transparent = [background, fill].into_iter().flatten().any(|light| light.alpha() < 1.0);

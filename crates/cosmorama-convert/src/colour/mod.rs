@@ -1,10 +1,12 @@
-//! Colour of a conversion: transfer functions and primaries of both sides, ICC profiles, further channels, labels,
-//! messages about alpha, and metadata that outputs take over.
+//! Colour of a conversion: transfer functions and primaries of both sides, ICC profiles, spaces of OpenColorIO configs,
+//! further channels, labels, messages about alpha, and metadata that outputs take over.
 
 mod carried;
+mod conversion;
 mod labels;
 mod layers;
 mod light;
+mod ocio;
 mod profile;
 mod thin_alpha;
 mod working;
@@ -13,6 +15,7 @@ pub use layers::{LayerRules, contents};
 pub use light::InputTransfer;
 pub use thin_alpha::ThinAlpha;
 
+pub(crate) use conversion::LightConversion;
 pub(crate) use labels::check_labels;
 pub(crate) use layers::{LayerContent, LayerGroup, LayerPlan, PictureNames, check_choice};
 pub(crate) use light::{FileColours, Light};

@@ -64,6 +64,14 @@ settings! {
     InPrimaries "in-primaries" IN_PRIMARIES,
     /// Whether ICC profiles of inputs are ignored.
     IgnoreProfile "ignore-profile" IGNORE_PROFILE,
+    /// OpenColorIO config.
+    Ocio "ocio" OCIO,
+    /// Colour space of the input in the config.
+    InSpace "in-space" IN_SPACE,
+    /// Colour space of the output in the config.
+    OutSpace "out-space" OUT_SPACE,
+    /// View of the config that the output is made for.
+    View "view" VIEW,
     /// Sample type of the output.
     Depth "depth" DEPTH,
     /// Colour outside the lens.

@@ -176,7 +176,7 @@ pub(crate) fn codec(job: &ConvertJob) -> Option<FixedCodec> {
             let colours = light.colours(header.channels, header.depth, &header.metadata);
             header.depth == Depth::Eight
                 && !header.channels.has_alpha()
-                && colours.matrix.is_none()
+                && colours.conversion.is_none()
                 && FixedDecoder::new(&colours.transfer).is_some()
         });
     is_possible.then(|| FixedCodec::new(&light.transfer, light.background)).flatten()

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use cosmorama::raster::{Depth, EncodedImage, Encoder, Image, Rgba, Threads};
 use cosmorama_io::{Carried, LayeredImage, Plane, WriteOptions, write_layers, write_levels};
 
-use crate::colour::{Light, PictureNames};
+use crate::colour::{Light, LightConversion, PictureNames};
 use crate::diagnostic::Result;
 
 /// A picture and its mip levels.
@@ -33,6 +33,8 @@ const LARGEST_HALF: f32 = 65504.0;
 
 /// Writer of pictures that share one kind of samples.
 pub(crate) struct Writer {
+    /// Conversion of light before it is encoded.
+    conversion: Option<LightConversion>,
     encoder: Encoder,
     /// Names of the picture's channels, if they are not the usual ones.
     names: Vec<String>,
@@ -50,7 +52,8 @@ impl Writer {
             PictureNames::Usual | PictureNames::LeftOut => Vec::new(),
         };
         let encoder = Encoder::new(light.channels, light.depth, &light.transfer);
-        Self { encoder, names, options, is_half: light.depth == Depth::Half, overflowed: AtomicUsize::new(0) }
+        let is_half = light.depth == Depth::Half;
+        Self { conversion: light.output(), encoder, names, options, is_half, overflowed: AtomicUsize::new(0) }
     }
 
     /// Returns the number of samples so far that are written as the largest half float, because they are brighter.
@@ -81,7 +84,10 @@ impl Writer {
 
     fn save_with(&self, options: &WriteOptions, levels: Levels, path: &Path, threads: Threads) -> Result<()> {
         let pool = &*self.options.pool;
-        let encode = |image: Image<Rgba>| {
+        let encode = |mut image: Image<Rgba>| {
+            if let Some(conversion) = &self.conversion {
+                conversion.convert_all(image.pixels_mut(), threads);
+            }
             if self.is_half {
                 let colours = image.pixels().iter().flat_map(|pixel| &pixel.0[..3]);
                 let brighter = colours.filter(|sample| sample.abs() > LARGEST_HALF).count();

@@ -8,7 +8,7 @@ use super::options::filter;
 use crate::colour::Light;
 use crate::diagnostic::{
     ANTI_RINGING, BACKGROUND, CHANNELS, Code, DEPTH, Diagnostic, FILTER, FRAMES, FROM, IN_TRANSFER, KERNEL, MISSING,
-    Mark, OUT_TRANSFER, OVERWRITE, PART, RESUME, Result, ST_MAP, TRANSFER, usage, usage_as,
+    Mark, OCIO, OUT_TRANSFER, OVERWRITE, PART, RESUME, Result, ST_MAP, TRANSFER, usage, usage_as,
 };
 use crate::input::{Builtin, Input, SAME_FOR_BOTH};
 use crate::settings::{Conversion, GeometrySettings};
@@ -154,10 +154,11 @@ fn without_letters(target: &Target) -> Option<Diagnostic> {
 
 /// Refuses settings about input files, which have no effect on a formula.
 fn check_input_options(settings: &Conversion) -> Result<()> {
-    let given: [(bool, Mark, &str); 6] = [
+    let given: [(bool, Mark, &str); 7] = [
         (settings.geometry.from.is_some(), FROM, "it is a formula, with no projection of its own"),
         (settings.frames.is_some() && settings.geometry.camera.is_none(), FRAMES, "it has none"),
         (settings.in_transfer.is_some(), IN_TRANSFER, "it has no code values"),
+        (settings.ocio.is_asked(), OCIO, "it has no code values; convert it to a picture first"),
         (settings.part.is_some(), PART, "it has none"),
         (!settings.channels.is_empty(), CHANNELS, "it has one picture"),
         (settings.missing != Missing::Error, MISSING, "it shows something in every direction"),
@@ -216,6 +217,9 @@ fn check_st_map(settings: &Conversion, format: Format) -> Result<()> {
         return Err(usage(format!(
             "{BACKGROUND}, {TRANSFER}, {IN_TRANSFER} and {OUT_TRANSFER} are for light, but an st map has none; leave them out"
         )));
+    }
+    if settings.ocio.is_asked() {
+        return Err(usage(format!("{OCIO} is for light, but an st map has none; leave it out")));
     }
     if matches!(settings.missing, Missing::Fill(colour) if colour != Rgba::TRANSPARENT) {
         return Err(usage(format!(

@@ -163,7 +163,7 @@ impl ConvertJob {
         };
         warnings.extend(outputs.warning());
         let missing = match settings.missing {
-            Missing::Fill(colour) => Missing::Fill(light.working.colour(colour)),
+            Missing::Fill(colour) => Missing::Fill(light.colour(colour)?),
             Missing::Error => Missing::Error,
         };
         let mut job = Self {

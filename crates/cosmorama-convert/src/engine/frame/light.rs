@@ -117,8 +117,8 @@ impl FrameLight {
 
     /// Returns whether an image can be held in 15 bits.
     fn takes(&mut self, image: &ViewImage) -> bool {
-        let FileColours { transfer: wanted, matrix } = &image.colours;
-        if matrix.is_some() {
+        let FileColours { transfer: wanted, conversion } = &image.colours;
+        if conversion.is_some() {
             return false;
         }
         let known = self.fixed_decoders.iter().position(|(transfer, _)| transfer == wanted);
@@ -145,9 +145,9 @@ impl FrameLight {
             }
             Texels::Float(worlds) => {
                 let rows = |image: &ViewImage, first: usize, into: &mut [Rgba]| {
-                    let FileColours { transfer, matrix } = &image.colours;
+                    let FileColours { transfer, conversion } = &image.colours;
                     let irregular = decoder.decode_rows(&image.image, transfer, first, into);
-                    Counts { irregular, outside: matrix.as_ref().map_or(0, |matrix| matrix.convert(into)) }
+                    Counts { irregular, outside: conversion.as_ref().map_or(0, |conversion| conversion.convert(into)) }
                 };
                 decode(images, views(job, worlds), stages, rows)
             }
@@ -182,7 +182,7 @@ impl Texels {
             Self::Float(worlds) => {
                 let views = views(job, worlds);
                 each_read(images, rims, views, |image, rim, view| {
-                    let is_free = image.image.depth().is_float() || image.colours.matrix.is_some();
+                    let is_free = image.image.depth().is_float() || image.colours.conversion.is_some();
                     rim.restore(view, |texel| texel, |light| if is_free { light } else { within_white(light) });
                 });
             }

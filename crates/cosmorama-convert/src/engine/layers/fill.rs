@@ -1,11 +1,11 @@
 use cosmorama::camera::View;
-use cosmorama::raster::{ColourMatrix, Rgba};
+use cosmorama::raster::Rgba;
 use cosmorama::sphere::Orientation;
 use cosmorama::world::World;
 use rayon::prelude::*;
 
 use super::ViewPlanes;
-use crate::colour::LayerContent;
+use crate::colour::{LayerContent, LightConversion};
 use crate::job::ConvertJob;
 use crate::settings::{DepthKind, NormalSpace};
 
@@ -18,8 +18,8 @@ struct Reading<'a> {
     is_planar: bool,
     /// Frame of normals in the world.
     frame: Orientation,
-    /// Conversion of light to working primaries.
-    matrix: Option<ColourMatrix>,
+    /// Conversion to working light.
+    conversion: Option<LightConversion>,
 }
 
 /// Fills the texels of all worlds with a group's numbers. Light has the part that counts in the place of alpha, depths
@@ -38,7 +38,7 @@ pub(super) fn fill(job: &ConvertJob, content: LayerContent, views: &[ViewPlanes<
                 planes,
                 is_planar: rules.depth_of(&source.view) == DepthKind::Planar,
                 frame: if in_camera { source.view.orientation } else { Orientation::IDENTITY },
-                matrix: colours.matrix.filter(|_| content == LayerContent::Light),
+                conversion: colours.conversion.filter(|_| content == LayerContent::Light),
             };
             let width = source.view.width();
             let rows = texels[source.texels()].par_chunks_mut(width.max(1)).enumerate();
@@ -60,8 +60,8 @@ impl Reading<'_> {
                     let [a, b, c] = [0, 1, 2].map(|channel| tame(number(channel, i)));
                     *texel = Rgba::opaque(a, b, c);
                 }
-                if let Some(matrix) = &self.matrix {
-                    matrix.convert(row);
+                if let Some(conversion) = &self.conversion {
+                    conversion.convert(row);
                 }
             }
             LayerContent::Depth => {

@@ -1,5 +1,5 @@
 use cosmorama::filter::{FilterKind, FilterSettings, Labels};
-use cosmorama::raster::{FramePool, Image, Rgba};
+use cosmorama::raster::{FramePool, Image, Rgba, Threads};
 use cosmorama::render::{Resampler, Stopped};
 use cosmorama_io::{Limits, Plane, PlaneSamples};
 use rayon::prelude::*;
@@ -95,6 +95,7 @@ impl LayerPass<'_> {
     /// Makes the planes of a file for a group of channels.
     fn planes(&self, sheet: &Sheet, texels: &GroupTexels<'_>, shares: &mut Shares<'_>) -> Result<Vec<Plane>> {
         let (width, height) = sheet.size;
+        let output = self.job.light.output();
         let channels = texels.group.channels.iter();
         let blank = |channel: &cosmorama_io::NamedChannel| Plane {
             name: channel.name.clone(),
@@ -105,6 +106,9 @@ impl LayerPass<'_> {
             let mut image = self.render(index, texels, shares)?;
             let target = &self.posed.views[index];
             finish((texels.group.content, self.job.layers.rules), &target.view, &mut image);
+            if let (LayerContent::Light, Some(output)) = (texels.group.content, &output) {
+                output.convert_all(image.pixels_mut(), Threads::All);
+            }
             let world = target.world(texels.worlds.len());
             planes.par_iter_mut().enumerate().for_each(|(channel, plane)| {
                 let mut at = 0;
