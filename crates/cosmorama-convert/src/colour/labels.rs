@@ -2,7 +2,7 @@ use cosmorama::filter::{FilterKind, FilterSettings};
 use cosmorama_io::Format;
 
 use super::{FileColours, Light};
-use crate::diagnostic::{Code, DEPTH, FILTER, Result, usage, usage_as};
+use crate::diagnostic::{Code, DEPTH, LABELS, Result, usage, usage_as};
 use crate::input::Input;
 
 /// Checks that every value of an input of labels can go to the output unchanged: all inputs and the output are integers
@@ -15,22 +15,22 @@ pub(crate) fn check_labels(filter: &FilterSettings, input: &Input, light: &Light
         return Ok(());
     }
     if format == Format::Jpeg {
-        let message = format!("{FILTER} labels: JPEG changes values; write PNG, TIFF or TGA");
+        let message = format!("{LABELS}: JPEG changes values; write PNG, TIFF or TGA");
         return Err(usage_as(Code::OutputFormat, message));
     }
     for (view, header, _) in input.present() {
         let path = view.files.path(None).display().to_string();
         if header.depth.is_float() {
-            let holds = format!("{FILTER} labels: {path} holds {} samples", header.depth);
+            let holds = format!("{LABELS}: {path} holds {} samples", header.depth);
             return Err(usage(format!("{holds}; labels are integers of 8 or 16 bits")));
         }
         if header.depth != light.depth {
-            let found = format!("{FILTER} labels: {path} has {} bits and the output {}", header.depth, light.depth);
+            let found = format!("{LABELS}: {path} has {} bits and the output {}", header.depth, light.depth);
             return Err(usage(format!("{found}; give {DEPTH} {}, and inputs of one depth", header.depth)));
         }
         let unchanged = FileColours { transfer: light.transfer.clone(), conversion: None };
         if light.colours(header.channels, header.depth, &header.metadata) != unchanged {
-            let found = format!("{FILTER} labels: the output would be encoded otherwise than {path}");
+            let found = format!("{LABELS}: the output would be encoded otherwise than {path}");
             let remedy = "leave transfer functions and primaries alone, and give inputs of one kind";
             return Err(usage(format!("{found}; {remedy}")));
         }

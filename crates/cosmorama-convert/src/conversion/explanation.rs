@@ -6,7 +6,7 @@ use cosmorama::camera::View;
 use cosmorama::explain;
 use cosmorama::filter::FilterSettings;
 use cosmorama::world::World;
-use cosmorama_io::FrameList;
+use cosmorama_io::{Choice, FrameList};
 use cosmorama_spec::Size;
 use rayon::ThreadPool;
 
@@ -19,7 +19,7 @@ use crate::job::files_read;
 use crate::job::gaps::{Shot, find_gaps_of_shots};
 use crate::job::options::filter;
 use crate::settings::{CameraMovement, GeometrySettings, LimitSettings};
-use crate::source::{Access, DecodedPicture, Disk, Files, MemoryBudget};
+use crate::source::{Access, ChosenFiles, DecodedPicture, Disk, Files, MemoryBudget};
 use crate::target::{Movement, Picture, TargetView, aspect, time};
 
 /// Settings of an explanation, possibly for an input that does not exist yet.
@@ -104,7 +104,10 @@ impl ExplanationSettings {
 
     fn resolve(&self, warnings: &mut Vec<Diagnostic>) -> Result<Resolved> {
         let memory = MemoryBudget::new(self.limits.memory);
-        let access = Access { files: &*self.files, memory, decoded: &DecodedPicture::default() };
+        // A file without a picture, as of depth alone, can be converted, too.
+        let choice = Choice { without_picture: true, ..Choice::default() };
+        let files = ChosenFiles { files: Arc::clone(&self.files), choice };
+        let access = Access { files: &files, memory, decoded: &DecodedPicture::default() };
         let geometry = &settled(&self.geometry, self.input.as_deref(), access, warnings)?;
         if geometry.to.is_none() {
             let example = format!("{TO} omnimax");

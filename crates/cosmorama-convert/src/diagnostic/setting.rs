@@ -48,6 +48,8 @@ settings! {
     Motion "motion" MOTION,
     /// Filter.
     Filter "filter" FILTER,
+    /// Rule by which labels are chosen.
+    Labels "labels" LABELS,
     /// Kernel of the filter.
     Kernel "kernel" KERNEL,
     /// Whether pixels are clamped to their texels.

@@ -238,6 +238,29 @@ fn layers_of_light_keep_names_types_and_constants() {
     assert_says(&text(&output.stderr), &[lost]);
 }
 
+/// What `convert` takes, `explain` takes.
+#[test]
+fn numbers_without_a_picture_are_explained() {
+    let bench = Bench::new();
+    save(&bench, "a.exr", (32, 16), false, vec![uints("id", 0..512), plane("N.X", vec![0.5; 512])]);
+    let told = bench.succeed(&["explain", "a.exr", "--from", "equirect", "--to", "fulldome", "--size", "8"]);
+    assert!(told.contains("32"), "{told}");
+}
+
+#[test]
+fn one_picture_of_several_sample_types_is_told_of() {
+    let bench = Bench::new();
+    let half = PlaneSamples::Half(vec![half::f16::from_f32(0.25); 512]);
+    let planes =
+        vec![plane("B", vec![0.25; 512]), Plane { name: "G".to_owned(), samples: half }, plane("R", vec![0.25; 512])];
+    save(&bench, "a.exr", (32, 16), false, planes);
+    let words = ["-v", "convert", "a.exr", "b.exr", "--from", "equirect", "--to", "fulldome", "--size", "8"];
+    let run = bench.run(&words);
+    let told = text(&run.stderr);
+    let lines: Vec<&str> = told.lines().filter(|line| line.contains("several sample types")).collect();
+    assert!(lines.len() == 1 && lines[0].contains("R, G, B"), "{told}");
+}
+
 #[test]
 fn what_is_not_there_is_told_with_what_is() {
     let bench = Bench::new();

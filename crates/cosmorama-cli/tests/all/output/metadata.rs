@@ -7,7 +7,10 @@ use std::sync::Arc;
 use super::page_table::{self, FORMATS};
 use crate::bench::{Bench, eight_bits, flat, text};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
-use cosmorama_io::{Attribute, Carried, Format, Metadata, WriteOptions, probe, probe_from, write};
+use cosmorama_io::{
+    Attribute, Carried, Format, LayeredImage, Metadata, Plane, PlaneSamples, WriteOptions, probe, probe_from, write,
+    write_layers,
+};
 
 /// An Exif block by the specification: the file's own directory, and the camera's.
 fn exif(orientation: u16) -> Vec<u8> {
@@ -224,6 +227,60 @@ fn a_pose_is_followed_where_asked_and_told_otherwise() {
     assert!(
         bench.fail(2, &["convert", "p.jpg", "r.png", "--to", "equirect:pose=yes"]).contains("pose=yes is for inputs")
     );
+}
+
+/// Statements about a film's display, and comments, are told of before they are gone.
+#[test]
+fn what_goes_along_nowhere_is_told() {
+    let bench = Bench::new();
+    inputs(&bench);
+    let png = with_chunk(&bench.bytes("a.png"), b"cLLI", &[0; 8]);
+    std::fs::write(bench.path("b.png"), with_chunk(&png, b"mDCV", &[0; 24])).unwrap();
+    let jpeg = bench.bytes("a.jpg");
+    let comment = b"\xff\xfe\x00\x07noted";
+    std::fs::write(bench.path("b.jpg"), [&jpeg[..2], comment, &jpeg[2..]].concat()).unwrap();
+    for (input, names) in [("b.png", &["cLLI", "mDCV"][..]), ("b.jpg", &["a comment (COM)"])] {
+        let run = bench.run(&[&["-v", "convert", input, "c.png", "-y"], shape("png")].concat());
+        let told = text(&run.stderr);
+        let line = told.lines().find(|line| line.contains("not carried over")).unwrap_or_default();
+        assert!(run.status.success() && names.iter().all(|name| line.contains(name)), "{told}");
+        let info = bench.succeed(&["info", input]);
+        assert!(info.contains("not_read") && names.iter().all(|name| info.contains(name)), "{info}");
+    }
+    let plain = bench.run(&[&["-v", "convert", "a.jpg", "c.png", "-y"], shape("png")].concat());
+    assert!(!text(&plain.stderr).contains("comment"), "{}", text(&plain.stderr));
+}
+
+/// The names behind a cryptomatte's numbers go along with its channels.
+#[test]
+fn manifests_of_cryptomatte_go_along() {
+    let bench = Bench::new();
+    let manifest = r#"{"bunny":"13851a76","default":"42c9679f"}"#;
+    let entries = [
+        ("name", "uCryptoAsset"),
+        ("conversion", "uint32_to_float32"),
+        ("hash", "MurmurHash3_32"),
+        ("manifest", manifest),
+    ];
+    let attribute = |(key, value): (&str, &str)| Attribute {
+        name: format!("cryptomatte/d593dd7/{key}"),
+        kind: "string".to_owned(),
+        bytes: value.as_bytes().to_vec(),
+    };
+    let carried = Arc::new(Carried::from(Vec::from(entries.map(attribute))));
+    let size = (16, 8);
+    let plane = |channel: &str| Plane {
+        name: format!("uCryptoAsset00.{channel}"),
+        samples: PlaneSamples::Float(vec![f32::from_bits(0x1385_1a76); 128]),
+    };
+    let planes = ["R", "G", "B", "A"].map(plane).into();
+    let layered = LayeredImage { size, picture: None, names: Vec::new(), planes };
+    let options = WriteOptions::with_metadata(Metadata { carried, ..Metadata::default() });
+    write_layers(bench.path("c.exr"), layered, &options).unwrap();
+    bench.succeed(&["convert", "c.exr", "d.exr", "--from", "equirect", "--to", "fulldome", "--size", "8"]);
+    for (key, value) in entries {
+        assert!(said(&bench, "d.exr").contains(&(format!("cryptomatte/d593dd7/{key}"), value.to_owned())), "{key}");
+    }
 }
 
 /// Each frame of a sequence has its own time code.

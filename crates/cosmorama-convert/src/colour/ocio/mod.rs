@@ -47,7 +47,7 @@ pub(crate) struct ColourConfig {
     tag: Option<(Primaries, Transfer)>,
 }
 
-/// What is asked of a config.
+/// Requests of a job to a config.
 struct Wanted<'a> {
     config: &'a str,
     in_space: &'a str,
@@ -70,8 +70,8 @@ impl ColourConfig {
     pub(super) fn open(args: &Conversion, headers: &[&Header], warnings: &mut Vec<Diagnostic>) -> Result<Option<Self>> {
         let Some(wanted) = wanted(args)? else { return Ok(None) };
         let Spaces { input, output, named_colours, out_space, out_names } = Spaces::open(&wanted, warnings)?;
-        let is_tagged = |header: &&&Header| header.metadata.primaries.is_some() || header.metadata.icc.is_some();
-        if headers.iter().any(|header| is_tagged(&header)) {
+        let says = |metadata: &Metadata| metadata.primaries.is_some() || metadata.icc.is_some();
+        if headers.iter().any(|header| says(&header.metadata)) {
             let message = format!("{IN_SPACE} says what colours are: the files' own tags of colours are ignored");
             warnings.push(Diagnostic::note(Code::Metadata, message));
         }

@@ -219,6 +219,10 @@ pub(super) fn announce(path: &Path, parts: &[Part], wanted: Wanted<'_>) -> Resul
         }),
         other_channels: selection.others.clone(),
         layers: selection.layers.clone(),
+        notes: Vec::from_iter(selection.is_mixed.then(|| {
+            let names = selection.layers.picture.join(", ");
+            format!("its channels {names} are of several sample types, and go on as one picture of floats")
+        })),
         software: own.software_name.as_ref().map(ToString::to_string),
         ..Metadata::default()
     };

@@ -16,6 +16,8 @@ pub(super) struct Selection {
     pub(super) others: Vec<String>,
     /// Channels beside the picture's, and parts of the file.
     pub(super) layers: Layers,
+    /// Whether some of the picture's channels are halves and others floats.
+    pub(super) is_mixed: bool,
     /// Indices of the channels, in the order of a pixel's samples.
     indices: Vec<usize>,
 }
@@ -50,7 +52,7 @@ impl Selection {
         let layers = Layers { no_picture: Some(found), further, picture: Vec::new(), ..layers_of(parts, offer) };
         let depth = if list[index].sample_type == SampleType::F16 { Depth::Half } else { Depth::Float };
         let (part, channels) = (offer.index, Channels::Grey);
-        Ok(Self { part, channels, depth, others: names(parts), layers, indices: vec![index] })
+        Ok(Self { part, channels, depth, others: names(parts), layers, is_mixed: false, indices: vec![index] })
     }
 
     /// Selects the two channels of an st map in the first flat part that has such: R and G, else u and v, s and t, or x
@@ -91,6 +93,8 @@ impl Selection {
                 SampleKind::Uint => return Err(format!("integers in channel {}", channel.name)),
             }
         }
+        let is_half = |index: &usize| list[*index].sample_type == SampleType::F16;
+        let is_mixed = depth == Depth::Float && indices.iter().any(is_half);
         let channels = Channels::ALL[indices.len() - 1];
         let used = |name: &String| indices.iter().any(|&index| name_of(index) == *name);
         let mut others = names(parts);
@@ -100,7 +104,7 @@ impl Selection {
         let further = further.map(|index| named(&list[*index])).collect();
         let picture = indices.iter().map(|index| name_of(*index)).collect();
         let layers = Layers { picture, further, ..layers_of(parts, offer) };
-        Ok(Self { part: offer.index, channels, depth, others, layers, indices })
+        Ok(Self { part: offer.index, channels, depth, others, layers, is_mixed, indices })
     }
 
     /// Returns the position of a channel among a pixel's samples.

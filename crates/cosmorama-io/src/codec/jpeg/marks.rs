@@ -6,6 +6,7 @@ use std::io::{self, BufRead, Seek};
 const BEGINNING: [u8; 3] = [0xff, 0xd8, 0xff];
 const END: u8 = 0xd9;
 const SCAN: u8 = 0xda;
+const COMMENT: u8 = 0xfe;
 const APPLICATION_2: u8 = 0xe2;
 
 /// Beginning of the segment that lists further pictures of a file (CIPA DC-007).
@@ -71,17 +72,34 @@ impl<'a> Iterator for Marks<'a> {
     }
 }
 
-/// Returns how many further pictures a file lists before its pixels, such as previews and gain maps of cameras.
-pub(super) fn listed(source: &mut (impl BufRead + Seek + ?Sized)) -> io::Result<u32> {
+/// Segments before a file's pixels that no decoder reads.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Beside {
+    /// Number of further pictures that are listed, such as previews and gain maps of cameras.
+    pub(super) pictures: u32,
+    /// Whether there is a comment.
+    pub(super) has_comment: bool,
+}
+
+/// Returns what lies before the pixels. A file that is too short for its marks has what was found until there.
+pub(super) fn beside(source: &mut (impl BufRead + Seek + ?Sized)) -> Beside {
+    let mut beside = Beside::default();
+    // The decoder tells what is wrong.
+    let _ = look_beside(source, &mut beside);
+    beside
+}
+
+fn look_beside(source: &mut (impl BufRead + Seek + ?Sized), beside: &mut Beside) -> io::Result<()> {
     source.seek_relative(2)?;
     loop {
         let mut start = [0; 4];
         source.read_exact(&mut start)?;
-        let [0xff, mark, high, low] = start else { return Ok(0) };
+        let [0xff, mark, high, low] = start else { return Ok(()) };
         let length = usize::from(u16::from_be_bytes([high, low])).saturating_sub(2);
         if mark == SCAN {
-            return Ok(0);
+            return Ok(());
         }
+        beside.has_comment |= mark == COMMENT;
         if mark != APPLICATION_2 {
             source.seek_relative(length as i64)?;
             continue;
@@ -89,7 +107,7 @@ pub(super) fn listed(source: &mut (impl BufRead + Seek + ?Sized)) -> io::Result<
         let mut segment = vec![0; length];
         source.read_exact(&mut segment)?;
         if let Some(list) = segment.strip_prefix(INDEX) {
-            return Ok(number_of_images(list).unwrap_or(1).saturating_sub(1));
+            beside.pictures = number_of_images(list).unwrap_or(1).saturating_sub(1);
         }
     }
 }

@@ -27,12 +27,14 @@ impl Codec for Jpeg {
     }
 
     fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
-        // If the file is too short for its marks, the decoder will refuse it.
-        let listed = marks::listed(source).unwrap_or(0);
+        let beside = marks::beside(source);
         source.rewind().map_err(|error| IoError::open(path, error))?;
         let mut decoder = decoder(path, source)?;
         let mut header = header(path, &mut decoder)?;
-        header.metadata.notes.extend(unread(listed));
+        header.metadata.notes.extend(unread(beside.pictures));
+        if beside.has_comment {
+            Arc::make_mut(&mut header.metadata.carried).unread.push("a comment (COM)");
+        }
         Ok(header)
     }
 
@@ -44,7 +46,7 @@ impl Codec for Jpeg {
             return Err(IoError::damaged(path, FORMAT, "it ends too early"));
         }
         // Pictures that a file lists are previews and the like. Only unlisted ones are further pictures.
-        let listed = marks::listed(&mut Cursor::new(&bytes)).unwrap_or(0);
+        let listed = marks::beside(&mut Cursor::new(&bytes)).pictures;
         let count = if listed == 0 { marks::count_alike(&bytes) } else { 1 };
         if count > 1 {
             return Err(IoError::several(path, FORMAT, count, "pictures one behind the other"));

@@ -21,6 +21,10 @@ pub(super) struct Found {
     pub(super) complaints: Vec<String>,
 }
 
+/// Chunks that are never carried, with what to call them. Both speak of a whole film on the display of its makers.
+const UNREAD: [(&[u8; 4], &str); 2] =
+    [(b"cLLI", "the content's light level (cLLI)"), (b"mDCV", "the mastering display's colours (mDCV)")];
+
 /// Reads the chunks, and goes back to the beginning. Damage is left for the decoder to report.
 pub(super) fn read(source: Source<'_>) -> io::Result<Found> {
     let mut found = Found::default();
@@ -28,6 +32,7 @@ pub(super) fn read(source: Source<'_>) -> io::Result<Found> {
     while let Ok([a, b, c, d, kind @ ..]) = <[u8; 8]>::try_from(next_bytes(source, 8)?) {
         let length = u32::from_be_bytes([a, b, c, d]);
         let is_read = matches!(&kind, b"tEXt" | b"zTXt" | b"iTXt" | b"eXIf");
+        found.carried.unread.extend(UNREAD.iter().filter(|(unread, _)| **unread == kind).map(|(_, name)| *name));
         let is_large = length as usize > LARGEST_EXIF;
         if is_read && is_large {
             let name = String::from_utf8_lossy(&kind);

@@ -26,7 +26,7 @@ pub struct Carried {
     pub exif: Option<Exif>,
     /// XMP packet of a PNG, JPEG or TIFF.
     pub(crate) xmp: Option<String>,
-    /// Kinds of metadata that are never carried, such as IPTC.
+    /// Kinds of metadata that are never carried, such as IPTC and comments of JPEG.
     pub unread: Vec<&'static str>,
 }
 
@@ -46,6 +46,8 @@ pub struct Kept {
     pub untrue: Vec<String>,
     /// Kinds of metadata that the format cannot hold, with some of their names.
     pub lost: Vec<String>,
+    /// Kinds that go along to no format.
+    pub unread: Vec<&'static str>,
     /// Whether some of the lost metadata name the picture's author or owner.
     pub loses_owner: bool,
 }
@@ -93,7 +95,7 @@ impl Carried {
         self.keep_texts(room, &mut kept);
         self.keep_exif(room, &mut kept);
         self.keep_xmp(room, &mut kept);
-        kept.lost.extend(self.unread.iter().map(ToString::to_string));
+        kept.unread.clone_from(&self.unread);
         kept
     }
 

@@ -67,7 +67,8 @@ fn curve(transfer: &Transfer, channel: ColourChannel) -> ToneReprCurve {
     match transfer {
         // Function type 3 of ICC.1:2022, 10.18.
         Transfer::Srgb => ToneReprCurve::Parametric(vec![2.4, 1.0 / 1.055, 0.055 / 1.055, 1.0 / 12.92, 0.04045]),
-        Transfer::Linear => ToneReprCurve::Lut(Vec::new()),
+        // An empty table would do, but OpenColorIO refuses it.
+        Transfer::Linear => ToneReprCurve::Parametric(vec![1.0]),
         Transfer::Gamma(gamma) => ToneReprCurve::Parametric(vec![*gamma as f32]),
         Transfer::Bt1886 => ToneReprCurve::Parametric(vec![2.4]),
         Transfer::Pq | Transfer::Hlg | Transfer::Curve(_) => {
