@@ -265,3 +265,25 @@ fn pictures_of_different_primaries_are_compared_as_light() {
     );
     assert!(!bench.run(&["compare", "a.png", "c.png", "--min-psnr", "40"]).status.success());
 }
+
+/// A program that was built without OpenColorIO says how to build one with it.
+#[cfg(not(feature = "ocio"))]
+#[test]
+fn a_config_needs_a_program_that_can_read_it() {
+    let bench = Bench::new();
+    bench.save("a.png", &flat(16, 8, &[100, 150, 200]));
+    let convert = ["convert", "a.png", "b.png", "--from", "equirect", "--to", "fulldome"];
+    let refused = |more: &[&str]| bench.fail(2, &[&convert, more].concat());
+    let config = ["--ocio", "ocio://default", "--in-space", "ACEScg"];
+    assert_says(&refused(&config), &["--ocio ocio://default", "--features ocio"]);
+    assert_says(&refused(&["--ocio", "ocio://default"]), &["--in-space"]);
+    let nameless =
+        bench.command(&[&convert[..], &["--in-space", "ACEScg"]].concat()).env_remove("OCIO").output().unwrap();
+    assert_says(&text(&nameless.stderr), &["--ocio", "$OCIO"]);
+    assert_says(&refused(&[&config[..], &["--primaries", "rec2020"]].concat()), &["--primaries", "--ocio"]);
+    let both = ["--out-space", "ACEScg", "--view", "a/b"];
+    assert_says(&refused(&[&config[..], &both].concat()), &["--out-space or --view"]);
+    // The variable alone is no request.
+    let made = bench.command(&convert).env("OCIO", "ocio://default").output().unwrap();
+    assert!(made.status.success(), "{}", text(&made.stderr));
+}

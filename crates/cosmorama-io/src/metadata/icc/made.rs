@@ -59,8 +59,11 @@ fn described(name: &str) -> ColorProfile {
     profile
 }
 
+/// Returns a text of an even number of letters, of two bytes each: the encoder puts tags one behind the other, and ICC.1 wants
+/// them, and the whole, to be multiples of four bytes. libpng leaves out profiles that are not.
 fn text(text: &str) -> ProfileText {
-    ProfileText::Localizable(vec![LocalizableString::new("en".to_owned(), "US".to_owned(), text.to_owned())])
+    let even = if text.encode_utf16().count() % 2 == 0 { text.to_owned() } else { format!("{text} ") };
+    ProfileText::Localizable(vec![LocalizableString::new("en".to_owned(), "US".to_owned(), even)])
 }
 
 fn curve(transfer: &Transfer, channel: ColourChannel) -> ToneReprCurve {
@@ -121,5 +124,22 @@ mod tests {
             }
         }
         assert_eq!(made(&Transfer::Srgb, &own), made(&Transfer::Srgb, &own));
+    }
+
+    /// libpng reads no others.
+    #[test]
+    fn profiles_and_their_tags_are_multiples_of_four_bytes() {
+        let names = Primaries::NAMED.into_iter().map(|(_, primaries)| primaries);
+        let colours = names.flat_map(|primaries| {
+            [Transfer::Srgb, Transfer::Linear, Transfer::Gamma(2.2), Transfer::Pq]
+                .map(|transfer| made(&transfer, &primaries))
+        });
+        for profile in colours.chain([made_grey(&Transfer::Gamma(1.8))]).map(Option::unwrap) {
+            let number = |at: usize| u32::from_be_bytes(profile[at..at + 4].try_into().unwrap());
+            assert_eq!((number(0), profile.len() % 4), (profile.len() as u32, 0));
+            for tag in 0..number(128) as usize {
+                assert_eq!(number(132 + 12 * tag + 4) % 4, 0, "the place of tag {tag}");
+            }
+        }
     }
 }
