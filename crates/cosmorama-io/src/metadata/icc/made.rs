@@ -126,7 +126,7 @@ mod tests {
         assert_eq!(made(&Transfer::Srgb, &own), made(&Transfer::Srgb, &own));
     }
 
-    /// libpng reads no others.
+    // libpng reads no others.
     #[test]
     fn profiles_and_their_tags_are_multiples_of_four_bytes() {
         let names = Primaries::NAMED.into_iter().map(|(_, primaries)| primaries);
