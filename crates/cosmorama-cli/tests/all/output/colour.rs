@@ -275,7 +275,7 @@ fn a_config_needs_a_program_that_can_read_it() {
     let convert = ["convert", "a.png", "b.png", "--from", "equirect", "--to", "fulldome"];
     let refused = |more: &[&str]| bench.fail(2, &[&convert, more].concat());
     let config = ["--ocio", "ocio://default", "--in-space", "ACEScg"];
-    assert_says(&refused(&config), &["--ocio ocio://default", "--features ocio"]);
+    assert_says(&refused(&config), &["--ocio ocio://default", "with the feature ocio"]);
     assert_says(&refused(&["--ocio", "ocio://default"]), &["--in-space"]);
     let nameless =
         bench.command(&[&convert[..], &["--in-space", "ACEScg"]].concat()).env_remove("OCIO").output().unwrap();

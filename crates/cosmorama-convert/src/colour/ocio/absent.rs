@@ -36,7 +36,7 @@ impl Spaces {
             Code::Unsupported,
             format!(
                 "{OCIO} {config}: this program was built without OpenColorIO, and cannot bring colours from {in_space} to \
-                 {out}; build one that can: cargo build --release --features ocio"
+                 {out}; build one with the feature ocio, as docs/colour.md shows"
             ),
         ))
     }

@@ -62,7 +62,7 @@ fn described(name: &str) -> ColorProfile {
 /// Returns a text of an even number of letters, of two bytes each: the encoder puts tags one behind the other, and ICC.1 wants
 /// them, and the whole, to be multiples of four bytes. libpng leaves out profiles that are not.
 fn text(text: &str) -> ProfileText {
-    let even = if text.encode_utf16().count() % 2 == 0 { text.to_owned() } else { format!("{text} ") };
+    let even = if text.encode_utf16().count().is_multiple_of(2) { text.to_owned() } else { format!("{text} ") };
     ProfileText::Localizable(vec![LocalizableString::new("en".to_owned(), "US".to_owned(), even)])
 }
 
