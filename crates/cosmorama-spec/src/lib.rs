@@ -46,7 +46,10 @@ pub use compression::CompressionLevel;
 pub use error::{SpecError, WordError, WordKind, did_you_mean, nearest};
 pub use filter::{FilterName, KernelName};
 pub use frame_ranges::{FrameRanges, FrameRangesError};
-pub use light::{Colour, DepthName, Missing, PrimariesName, TransferName};
+pub use light::{
+    Colour, DepthName, Missing, PrimariesName, TransferName, colour_table_csv, colour_table_of_csv,
+    colour_table_of_stops,
+};
 pub use memory::MemorySize;
 pub use size::Size;
 pub use spec::{

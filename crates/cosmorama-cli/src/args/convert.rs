@@ -235,7 +235,8 @@ fn quality(text: &str) -> Result<u8, String> {
     }
 }
 
-fn threads(text: &str) -> Result<usize, String> {
+/// Reads a number of threads.
+pub(super) fn threads(text: &str) -> Result<usize, String> {
     match text.parse() {
         Ok(count @ 1..=1024) => Ok(count),
         _ => Err("expected a number from 1 to 1024".to_owned()),

@@ -5,7 +5,6 @@ mod convert;
 mod demo;
 mod diagram;
 mod explain;
-mod harmonics;
 mod help;
 mod info;
 mod light;

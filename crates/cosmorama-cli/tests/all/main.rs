@@ -49,6 +49,15 @@ mod lenses {
     mod worlds;
 }
 
+mod light {
+    mod brdf;
+    mod harmonics;
+    mod maps;
+    mod sky;
+    mod sun;
+    mod table;
+}
+
 mod output {
     mod bad_output;
     mod colour;

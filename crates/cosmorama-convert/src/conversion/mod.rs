@@ -13,6 +13,6 @@ pub use check::threads;
 pub use explanation::{Explanation, ExplanationSettings, PathExplanation};
 pub use observer::{Observer, Quiet, Stop, Work};
 pub use report::Report;
-pub use world_light::{Radiance, WorldLight};
+pub use world_light::{Radiance, WorldHarmonics, WorldLight, WorldSuns};
 
 pub(crate) use advance::watched;

@@ -1,15 +1,20 @@
 use std::collections::HashSet;
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use cosmorama::lighting::{AllTexels, HarmonicBasis, Harmonics, Lobe, LobeAverages};
-use cosmorama::raster::{Depth, Primaries, Rgba};
+use cosmorama::lighting::{
+    AllTexels, ColourTable, HarmonicAccuracy, HarmonicBasis, HarmonicWindow, Harmonics, LightFigures, Lobe,
+    LobeAverages, Suns, TableAngle,
+};
+use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Primaries, Rgba, Transfer};
+use cosmorama::sphere::Orientation;
 use cosmorama::world::{Light, World};
+use cosmorama_io::{EnvMap, Format, Metadata, WriteOptions, write};
 use rayon::ThreadPool;
 
 use super::check::threads;
 use super::run::light_of;
-use crate::diagnostic::{Diagnostic, FRAMES, Outcome, Result, bail, usage};
+use crate::diagnostic::{Diagnostic, FRAMES, Outcome, Result, TO, bail, usage};
 use crate::engine::{Engine, FrameLight, Stages, Texels, light_of_unseen};
 use crate::job::options::write_options;
 use crate::job::{Content, ConvertJob, Purpose, files_read};
@@ -18,7 +23,7 @@ use crate::settings::{Conversion, LightNormalisation, LightSettings};
 /// Picture whose format keeps all light: none is written.
 const ANY_PICTURE: &str = "light.exr";
 
-/// Light of one world, for what is no picture of it: its spherical harmonics, or things that it lights.
+/// Light of one world, for what is no picture of it: harmonics, a table of its colours, its suns, or things that it lights.
 ///
 /// ```
 /// use cosmorama_convert::Conversion;
@@ -30,8 +35,9 @@ const ANY_PICTURE: &str = "light.exr";
 /// let picture = Conversion::new("builtin:grid", &sky).to("equirect".parse()?).size("64".parse()?);
 /// picture.check().result?.run(&mut cosmorama_convert::Quiet)?;
 /// let light = Conversion::new(&sky, "").check_light().result?;
-/// let (harmonics, _) = light.harmonics(2, HarmonicBasis::YUp)?;
-/// assert_eq!(harmonics.coefficients().len(), 9);
+/// let (found, _) = light.harmonics((2, HarmonicBasis::YUp), None)?;
+/// assert_eq!(found.harmonics.coefficients().len(), 9);
+/// assert!(found.accuracy.irradiance.rms_error < found.accuracy.radiance.rms_error);
 /// # Ok(())
 /// # }
 /// ```
@@ -55,6 +61,28 @@ pub struct Radiance {
     pub primaries: Primaries,
     /// Diagnostics of the light.
     pub diagnostics: Vec<Diagnostic>,
+}
+
+/// Harmonics of a world's radiance.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WorldHarmonics {
+    /// Coefficients.
+    pub harmonics: Harmonics,
+    /// Part of the light that they miss.
+    pub accuracy: HarmonicAccuracy,
+    /// Figures of the light itself.
+    pub light: LightFigures,
+}
+
+/// Suns and lamps of a world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WorldSuns {
+    /// Suns and lamps, brightest first.
+    pub suns: Suns,
+    /// Figures of the light itself.
+    pub light: LightFigures,
+    /// Figures of the light without them.
+    pub left: LightFigures,
 }
 
 impl Conversion {
@@ -92,18 +120,40 @@ impl WorldLight {
         &self.files
     }
 
-    /// Reads the light and sums its harmonics over all texels. Also returns what there is to say about the light.
+    /// Reads the light and sums its harmonics over all texels, weakened by a window if one is given. Also returns what there is to say
+    /// about the light.
     ///
     /// # Errors
     /// When a file cannot be read, its content contradicts its header, or there are no harmonics of this order.
-    pub fn harmonics(&self, order: usize, basis: HarmonicBasis) -> Result<(Harmonics, Vec<Diagnostic>)> {
+    pub fn harmonics(
+        &self,
+        (order, basis): (usize, HarmonicBasis),
+        window: Option<HarmonicWindow>,
+    ) -> Result<(WorldHarmonics, Vec<Diagnostic>)> {
         self.pool.install(|| {
             let (light, diagnostics) = self.read()?;
-            let (world, texels) = self.first(&light)?;
-            let is_complete = AllTexels::of_texels(world, texels).is_complete();
-            let unseen = light_of_unseen(&self.job, is_complete)?;
-            match Harmonics::of_texels(world, (texels, unseen), order, basis) {
-                Ok(harmonics) => Ok((harmonics, diagnostics)),
+            let (world, shown) = self.shown(&light)?;
+            let exact = Harmonics::of_texels(world, shown, order, basis).map_err(|error| usage(format!("{error}")))?;
+            let harmonics = window.map_or_else(|| exact.clone(), |window| exact.windowed(window));
+            let accuracy = HarmonicAccuracy::of(world, shown, &exact, &harmonics);
+            Ok((WorldHarmonics { harmonics, accuracy, light: LightFigures::of(world, shown.0) }, diagnostics))
+        })
+    }
+
+    /// Averages the light by one angle, over bands of equal width. Also returns what there is to say about the light.
+    ///
+    /// # Errors
+    /// When a file cannot be read, its content contradicts its header, or there is no table of so many colours.
+    pub fn colour_table(
+        &self,
+        axes: (TableAngle, Orientation),
+        count: usize,
+    ) -> Result<(ColourTable, Vec<Diagnostic>)> {
+        self.pool.install(|| {
+            let (light, diagnostics) = self.read()?;
+            let (world, shown) = self.shown(&light)?;
+            match ColourTable::of_texels(world, shown, axes, count) {
+                Ok(table) => Ok((table, diagnostics)),
                 Err(error) => Err(usage(format!("{error}"))),
             }
         })
@@ -124,6 +174,78 @@ impl WorldLight {
             let primaries = self.job.light.working.primaries;
             Ok(Radiance { world: world.clone(), light, unseen, primaries, diagnostics })
         })
+    }
+
+    /// Checks that a picture without suns can be written to a file.
+    ///
+    /// # Errors
+    /// When the input is more than one picture, or the file's extension is that of no picture.
+    pub fn check_picture(&self, path: &Path) -> Result<()> {
+        let views: usize = self.job.worlds.iter().map(|world| world.sources().len()).sum();
+        if views != 1 {
+            return Err(usage(format!(
+                "{} has {views} views, and light is taken out of single pictures; make one of it first, with convert and {TO} equirect",
+                self.settings.input
+            )));
+        }
+        let format = path.extension().and_then(|extension| Format::of_extension(&extension.to_string_lossy()));
+        match format {
+            Some(format) if format != Format::Exr && self.job.input.envmap() == Some(EnvMap::LatLong) => {
+                Err(usage(format!(
+                    "{} is {format}, but only OpenEXR can say that samples lie on the edges, as those of {} do; name the picture .exr",
+                    path.display(),
+                    self.settings.input
+                )))
+            }
+            Some(format) if !format.is_cube_map() => Ok(()),
+            _ => Err(usage(format!("{}: name the picture .exr, .hdr, .png or .tif", path.display()))),
+        }
+    }
+
+    /// Finds suns and lamps, and writes the picture without them to a file if one is given. Also returns what there is to say about
+    /// the light.
+    ///
+    /// # Errors
+    /// When a file cannot be read, its content contradicts its header, or the picture cannot be written.
+    pub fn suns(&self, without: Option<&Path>) -> Result<(WorldSuns, Vec<Diagnostic>)> {
+        self.pool.install(|| {
+            let (light, diagnostics) = self.read()?;
+            let (world, texels) = self.first(&light)?;
+            let suns = Suns::find(world, texels);
+            let left = suns.without(texels);
+            let found =
+                WorldSuns { light: LightFigures::of(world, texels), left: LightFigures::of(world, &left), suns };
+            if let Some(path) = without {
+                self.check_picture(path)?;
+                self.write(path, (world, left))?;
+            }
+            Ok((found, diagnostics))
+        })
+    }
+
+    /// Writes the light of a single picture.
+    fn write(&self, path: &Path, (world, texels): (&World, Vec<Rgba>)) -> Result<()> {
+        let view = &world.sources()[0].view;
+        let format = Format::from_extension(path)?;
+        let depth = format.depths().last().copied().unwrap_or(Depth::Eight);
+        let transfer = if depth.is_float() { Transfer::Linear } else { Transfer::Srgb };
+        let is_opaque = texels.iter().all(|texel| texel.alpha() >= 1.0);
+        let channels = format.nearest_channels(if is_opaque { Channels::Rgb } else { Channels::Rgba });
+        let Ok(image) = Image::new(view.width(), view.height(), texels) else {
+            bail!("light of another size than its view")
+        };
+        let encoded = EncodedImage::encode(&image, channels, depth, &transfer);
+        let envmap = self.job.input.envmap();
+        let options = write_options(&self.settings, format, &self.job.outputs, &self.job.light);
+        let metadata = Metadata { transfer: Some(transfer), envmap, ..options.metadata };
+        Ok(write(path, &encoded, &WriteOptions { metadata, ..options })?)
+    }
+
+    /// Returns the first world with its light, and the light of what it does not show.
+    fn shown<'a>(&'a self, light: &'a FrameLight) -> Result<(&'a World, (&'a [Rgba], Rgba))> {
+        let (world, texels) = self.first(light)?;
+        let is_complete = AllTexels::of_texels(world, texels).is_complete();
+        Ok((world, (texels, light_of_unseen(&self.job, is_complete)?)))
     }
 
     /// Reads the frame's files.

@@ -24,7 +24,7 @@ pub(crate) use faces::face_shape::FacePicture;
 use std::path::PathBuf;
 
 use cosmorama::camera::View;
-use cosmorama_io::{Header, Pose};
+use cosmorama_io::{EnvMap, Header, Pose};
 
 use crate::detect::GivenFaces;
 use crate::diagnostic::{Code, Diagnostic, FROM, TO};
@@ -127,6 +127,11 @@ impl Input {
     /// Visits all views of all worlds.
     pub(crate) fn views(&self) -> impl Iterator<Item = &InputView> {
         self.worlds.iter().flatten()
+    }
+
+    /// Returns the map of the environment that the first file says it is.
+    pub(crate) fn envmap(&self) -> Option<EnvMap> {
+        self.present().next().and_then(|(_, header, _)| header.metadata.envmap)
     }
 
     /// Returns pixels per radian at the centre of the finest view.

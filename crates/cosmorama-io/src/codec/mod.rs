@@ -21,6 +21,7 @@ use std::path::Path;
 pub(crate) use exr::{write_layers, write_planes};
 pub use interface::ReadSeek;
 pub(crate) use interface::{Codec, Source, is_beside_others};
+pub(crate) use texture::write_flat;
 pub use write_options::{Compression, WriteOptions};
 
 use crate::IoError;

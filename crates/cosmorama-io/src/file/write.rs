@@ -3,7 +3,7 @@ use std::path::Path;
 
 use cosmorama::raster::{Depth, EncodedImage};
 
-use crate::codec::{codec, write_layers as encode_layers, write_planes as encode_planes};
+use crate::codec::{codec, write_flat as encode_flat, write_layers as encode_layers, write_planes as encode_planes};
 use crate::header::Format;
 use crate::pending::{Hidden, Pending};
 use crate::{IoError, LayeredImage, WriteOptions};
@@ -38,6 +38,21 @@ pub fn write(path: impl AsRef<Path>, image: &EncodedImage, options: &WriteOption
 /// match.
 pub fn write_levels(path: impl AsRef<Path>, levels: &[EncodedImage], options: &WriteOptions) -> Result<(), IoError> {
     hidden(path.as_ref(), levels, options)?.appear()
+}
+
+/// Writes a picture that is no world, such as a table: like [`write()`], but a KTX 2 file is a flat texture, not a cube, in which
+/// floats stay floats.
+///
+/// # Errors
+/// When [`write()`] would fail. A KTX 2 file holds RGBA of 8 bits, halves or floats.
+pub fn write_flat(path: impl AsRef<Path>, image: &EncodedImage, options: &WriteOptions) -> Result<(), IoError> {
+    let path = path.as_ref();
+    if Format::from_extension(path)? != Format::Ktx2 {
+        return write(path, image, options);
+    }
+    let mut pending = Pending::create(path, &options.unfinished)?;
+    encode_flat(path, pending.writer(), image, options)?;
+    pending.finish()
 }
 
 /// Writes a picture that gets its name later, for example together with others.

@@ -44,15 +44,16 @@ fn suns(world: &World, texels: &[Rgba], rows: &[Row]) -> f64 {
         return 0.0;
     }
     let least = World::SUN * bright / angle;
-    let all = world.sources().iter().flat_map(|source| (0..source.view.height()).map(move |j| (source, j)));
-    let lit = all.zip(rows).filter(|(_, row)| f64::from(row.peak) > least);
-    let of_row = |((source, j), _): ((&Source, usize), &Row)| {
-        let (width, angles) = (source.view.width(), &source.solid_angles);
-        let row = &texels[source.offset + j * width..source.offset + (j + 1) * width];
-        let lights = row.iter().zip(&angles[j * width..]).map(|(texel, angle)| (brightness(*texel), f64::from(*angle)));
-        lights.filter(|(light, _)| *light > least).map(|(light, angle)| light * angle).sum::<f64>()
-    };
-    lit.map(of_row).sum::<f64>() / bright
+    let (mut suns, mut rows) = (0.0, rows.iter());
+    for source in world.sources() {
+        let (angles, width) = (texel_angles(source), source.view.width());
+        let of_view = texels[source.texels()].chunks(width).zip(angles.chunks(width)).zip(rows.by_ref());
+        for ((texels, angles), _) in of_view.filter(|(_, row)| f64::from(row.peak) > least) {
+            let lights = texels.iter().zip(angles).map(|(texel, angle)| (brightness(*texel), f64::from(*angle)));
+            suns += lights.filter(|(light, _)| *light > least).map(|(light, angle)| light * angle).sum::<f64>();
+        }
+    }
+    suns / bright
 }
 
 /// Sums over a row of texels.
@@ -104,5 +105,10 @@ mod tests {
         let LightFigures { mean: [red, green, blue], peak, suns, shown } = LightFigures::of(&world, &texels);
         assert!((red - 0.5).abs() < 1e-4 && green == 0.0 && (blue - 2.0).abs() < 4e-4, "{red}, {blue}");
         assert!(peak == 4.0 && suns == 0.0 && (shown - 0.5).abs() < 1e-4);
+        // Texels of a coarse world are measured as the others are.
+        let world = World::new([("sky".to_owned(), panorama(64, 32))]).expect("one view");
+        let lamp = |k: usize| Rgba::opaque(if k == 64 * 10 { 1.0 } else { 0.0 }, 0.0, 0.0);
+        let figures = LightFigures::of(&world, &(0..64 * 32).map(lamp).collect::<Vec<_>>());
+        assert!((figures.suns - 1.0).abs() < 1e-9, "{}", figures.suns);
     }
 }

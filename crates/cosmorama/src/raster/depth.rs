@@ -43,6 +43,15 @@ impl Depth {
     pub const fn is_float(self) -> bool {
         matches!(self, Self::Half | Self::Float)
     }
+
+    /// Returns the largest light that samples hold; integers end at white, 1.
+    pub const fn most(self) -> f32 {
+        match self {
+            Self::Float => f32::MAX,
+            Self::Half => 65504.0,
+            Self::Eight | Self::Ten | Self::Twelve | Self::Sixteen => 1.0,
+        }
+    }
 }
 
 impl std::fmt::Display for Depth {

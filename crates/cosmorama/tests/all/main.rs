@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop where it stands")]
 
 mod explain;
+mod harmonic_presets;
 mod harmonics;
 mod lighting;
 mod projections;

@@ -3,7 +3,7 @@ use std::str::FromStr;
 
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueEnum, ValueHint};
-use cosmorama::lighting::{HIGHEST_ORDER, HarmonicBasis, HarmonicWindow};
+use cosmorama::lighting::{HIGHEST_ORDER, HarmonicBasis, HarmonicKind, HarmonicPreset, HarmonicWindow};
 use cosmorama_convert::{Conversion, GeometrySettings};
 use cosmorama_io::FrameList;
 use cosmorama_spec::{Missing, Spec, TransferName};
@@ -13,23 +13,25 @@ use crate::args::parse::listed;
 use crate::args::with_examples;
 
 /// Commands that the help of `light harmonics` shows.
-pub(super) const HARMONICS_EXAMPLES: [&str; 3] = [
+pub(super) const HARMONICS_EXAMPLES: [&str; 4] = [
     "cosmorama light harmonics sky.hdr light.json",
-    "cosmorama light harmonics 'faces/{face}.exr' light.json --order 4 --basis yup",
-    "cosmorama light harmonics sky.exr light.json --kind irradiance --window hanning",
+    "cosmorama light harmonics 'faces/{face}.exr' light.csv --order 4 --basis yup",
+    "cosmorama light harmonics sky.exr light.json --basis filament",
+    "cosmorama light harmonics sky.exr light.glsl --kind irradiance --window hanning",
 ];
 
-/// Sum the spherical harmonics of a world's light, as JSON.
+/// Sum the spherical harmonics of a world's light, as JSON, CSV or code.
 ///
 /// The coefficient of band l and number m is the l² + l + m-th: red, green, blue. The functions are real and orthonormal, without
-/// the phase of Condon and Shortley.
+/// the phase of Condon and Shortley, but where a program's preset has others. Also told: what the coefficients miss of the light, and
+/// whether their sum is negative anywhere.
 #[derive(Clone, Debug, Args)]
 #[command(help_template = with_examples(&HARMONICS_EXAMPLES))]
 pub(crate) struct HarmonicsArgs {
     /// An image or a pattern, as convert takes it; - is standard input
     #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
     pub(crate) input: String,
-    /// A JSON file
+    /// A file: .json, .csv, or code: .glsl, .hlsl, .rs, .cpp, .hpp, .h
     #[arg(value_hint = ValueHint::FilePath)]
     pub(crate) output: PathBuf,
     /// The input's projection [default: found]
@@ -38,13 +40,14 @@ pub(crate) struct HarmonicsArgs {
     /// Highest band, 0 to 10
     #[arg(long, value_name = "N", value_parser = order, allow_negative_numbers = true, default_value = "2", help_heading = "Light")]
     pub(crate) order: usize,
-    /// radiance: the light itself; irradiance: what falls on a matt surface
-    #[arg(long, value_enum, value_name = "KIND", default_value_t = Kind::Radiance, hide_possible_values = true, help_heading = "Light")]
-    pub(crate) kind: Kind,
-    /// zup: of the world's x, y, z (+Y up, −Z front); yup: of x, −z, y
+    /// radiance: the light itself; irradiance: what falls on a matt surface [default: radiance, or what the preset takes]
+    #[arg(long, value_enum, value_name = "KIND", hide_possible_values = true, help_heading = "Light")]
+    pub(crate) kind: Option<Kind>,
+    /// zup: of the world's x, y, z (+Y up, −Z front); yup: of x, −z, y; filament, three, unity, godot: as these programs take them
     ///
-    /// The pole of zup's functions is the world's +Z, the back; that of yup's is the world's +Y, up.
-    #[arg(long, value_enum, value_name = "AXES", default_value_t = Basis::Zup, hide_possible_values = true, help_heading = "Light")]
+    /// The pole of zup's functions is the world's +Z, the back; that of yup's is the world's +Y, up. A program's preset has its axes
+    /// for a panorama, its signs and its constants; docs/light.md lists them.
+    #[arg(long, value_enum, value_name = "BASIS", default_value_t = Basis::Zup, hide_possible_values = true, help_heading = "Light")]
     pub(crate) basis: Basis,
     /// Weaken high bands against ringing: hanning, lanczos or lanczos:WIDTH
     ///
@@ -68,6 +71,9 @@ pub(crate) struct HarmonicsArgs {
     pub(crate) no_mkdir: bool,
     #[command(flatten)]
     pub(crate) limits: LimitArgs,
+    /// Print a machine-readable report on standard output
+    #[arg(long, help_heading = "Run")]
+    pub(crate) json: bool,
 }
 
 /// What coefficients are of.
@@ -79,21 +85,28 @@ pub(crate) enum Kind {
     Irradiance,
 }
 
-/// Axes of the functions.
+/// Axes, signs and constants of the functions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Basis {
     /// The world's x, y and z
     Zup,
     /// The world's x, −z and y: the pole is up
     Yup,
+    /// Filament's IndirectLight
+    Filament,
+    /// A LightProbe of three.js
+    Three,
+    /// Unity's SphericalHarmonicsL2
+    Unity,
+    /// Probes of Godot's LightmapGI
+    Godot,
 }
 
-impl Kind {
-    /// Returns its name.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Radiance => "radiance",
-            Self::Irradiance => "irradiance",
+impl From<Kind> for HarmonicKind {
+    fn from(kind: Kind) -> Self {
+        match kind {
+            Kind::Radiance => Self::Radiance,
+            Kind::Irradiance => Self::Irradiance,
         }
     }
 }
@@ -104,16 +117,28 @@ impl Basis {
         match self {
             Self::Zup => "zup",
             Self::Yup => "yup",
+            Self::Filament => "filament",
+            Self::Three => "three",
+            Self::Unity => "unity",
+            Self::Godot => "godot",
         }
     }
-}
 
-impl From<Basis> for HarmonicBasis {
-    fn from(basis: Basis) -> Self {
-        match basis {
-            Basis::Zup => Self::ZUp,
-            Basis::Yup => Self::YUp,
+    /// Returns the program whose form it is, if it is one's.
+    pub(crate) fn preset(self) -> Option<HarmonicPreset> {
+        match self {
+            Self::Zup | Self::Yup => None,
+            Self::Filament => Some(HarmonicPreset::Filament),
+            Self::Three => Some(HarmonicPreset::Three),
+            Self::Unity => Some(HarmonicPreset::Unity),
+            Self::Godot => Some(HarmonicPreset::Godot),
         }
+    }
+
+    /// Returns the axes.
+    pub(crate) fn axes(self) -> HarmonicBasis {
+        let plain = if self == Self::Yup { HarmonicBasis::YUp } else { HarmonicBasis::ZUp };
+        self.preset().map_or(plain, HarmonicPreset::basis)
     }
 }
 

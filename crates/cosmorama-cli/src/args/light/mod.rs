@@ -1,25 +1,34 @@
 //! Arguments of the verbs that make light of a world.
 
+mod brdf;
 mod harmonics;
 pub(crate) mod lobe;
 mod maps;
 mod roughness;
+mod sun;
+mod table;
 
 use clap::{Args, Subcommand};
 
 use super::with_examples;
 
-pub(crate) use harmonics::{HarmonicsArgs, Kind};
+pub(crate) use brdf::BrdfArgs;
+pub(crate) use harmonics::HarmonicsArgs;
 pub(crate) use maps::{DiffuseArgs, MapArgs, Method, SpecularArgs, Unit};
+pub(crate) use sun::SunArgs;
+pub(crate) use table::TableArgs;
 
 /// Example commands in its help.
-pub(super) const EXAMPLES: [&str; 6] = [
+pub(super) const EXAMPLES: [&str; 9] = [
     "cosmorama light diffuse sky.hdr light.exr",
     "cosmorama light diffuse 'faces/{face}.exr' light.exr --to mercator",
     "cosmorama light specular sky.exr rough.exr --alpha 0.25 --size 256",
     "cosmorama light specular sky.exr glossy.png --lobe phong:64",
     "cosmorama light specular sky.exr chain.ktx2 --levels 5",
     "cosmorama light harmonics sky.exr light.json --order 4",
+    "cosmorama light table sky.hdr chrome.csv",
+    "cosmorama light brdf dfg.exr",
+    "cosmorama light sun sky.hdr --remove sky-without-sun.exr",
 ];
 
 /// Filter a world widely, to the light that it sheds on things.
@@ -39,14 +48,23 @@ pub(crate) enum LightVerb {
     Diffuse(Box<DiffuseArgs>),
     /// Make a map of what a glossy surface reflects, by the mirror direction
     Specular(Box<SpecularArgs>),
-    /// Sum the spherical harmonics of a world's light, as JSON
+    /// Sum the spherical harmonics of a world's light, as JSON, CSV or code
     Harmonics(Box<HarmonicsArgs>),
+    /// Make a table of a world's colours by elevation or azimuth, or a world of such a table
+    Table(Box<TableArgs>),
+    /// Find the suns and lamps of a world: direction, size, colour and light
+    Sun(Box<SunArgs>),
+    /// Make a table of what rough surfaces reflect of a white world (split sum, DFG)
+    Brdf(BrdfArgs),
 }
 
 /// Returns the example commands of a verb of `light`.
 pub(crate) fn examples(verb: &str) -> &'static [&'static str] {
     match verb {
         "diffuse" => &maps::DIFFUSE_EXAMPLES,
+        "brdf" => &brdf::BRDF_EXAMPLES,
+        "table" => &table::TABLE_EXAMPLES,
+        "sun" => &sun::SUN_EXAMPLES,
         "harmonics" => &harmonics::HARMONICS_EXAMPLES,
         _ => &maps::SPECULAR_EXAMPLES,
     }

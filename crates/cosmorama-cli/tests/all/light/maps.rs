@@ -1,25 +1,12 @@
-//! Light of a world: `light diffuse`, `light specular` and `light harmonics`.
+//! Maps of a world's light: `light diffuse` and `light specular`.
 
 use std::path::Path;
 
-use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
+use cosmorama::raster::Depth;
 use serde_json::Value;
 
+use super::sky::{light, save_sky};
 use crate::bench::{Bench, assert_says, text};
-
-/// A panorama in floats.
-fn save_sky(bench: &Bench, name: &str, width: usize, light: impl Fn(usize, usize) -> [f32; 3]) {
-    let picture = Image::from_fn(width, width / 2, |i, j| {
-        let [red, green, blue] = light(i, j);
-        Rgba::opaque(red, green, blue)
-    });
-    bench.save(name, &EncodedImage::encode(&picture, Channels::Rgb, Depth::Float, &Transfer::Linear));
-}
-
-fn light(bench: &Bench, name: &str) -> Vec<[f32; 3]> {
-    let light = bench.load(name).to_light(&Transfer::Linear);
-    light.pixels().iter().map(|Rgba([red, green, blue, _])| [*red, *green, *blue]).collect()
-}
 
 /// Largest and root mean square of relative errors.
 fn errors(found: &[[f32; 3]], expected: &[u8]) -> (f64, f64) {
@@ -269,75 +256,4 @@ fn a_chain_under_a_sun_is_finite() {
     let first = u32::from_le_bytes(bytes[80 + 48..80 + 52].try_into().unwrap()) as usize;
     let halves = bytes[first..].chunks_exact(2).map(|bytes| half::f16::from_le_bytes([bytes[0], bytes[1]]));
     assert!(halves.into_iter().all(half::f16::is_finite));
-}
-
-/// Coefficients in a JSON file.
-fn coefficients(bench: &Bench, name: &str) -> (Value, Vec<[f64; 3]>) {
-    let json: Value = serde_json::from_slice(&bench.bytes(name)).unwrap();
-    let light = |light: &Value| [0, 1, 2].map(|channel: usize| light[channel].as_f64().unwrap());
-    let coefficients = json["coefficients"].as_array().unwrap().iter().map(light).collect();
-    (json, coefficients)
-}
-
-#[test]
-fn harmonics_are_written_as_json() {
-    let bench = Bench::new();
-    // Brighter in red to the right, in blue above.
-    save_sky(&bench, "sky.exr", 128, |i, j| {
-        let (longitude, up) = ((i as f32 + 0.5) / 64.0 - 1.0, 0.5 - (j as f32 + 0.5) / 64.0);
-        let (longitude, latitude) = (longitude * std::f32::consts::PI, up * std::f32::consts::PI);
-        [2.0 + longitude.sin() * latitude.cos(), 2.0, 2.0 + latitude.sin()]
-    });
-    let near = |found: f64, expected: f64| assert!((found - expected).abs() < 2e-3, "{found}, expected {expected}");
-    let first = 4.0 * std::f64::consts::PI.sqrt();
-    bench.succeed(&["light", "harmonics", "sky.exr", "own/light.json"]);
-    let (json, own) = coefficients(&bench, "own/light.json");
-    assert_eq!((&json["order"], &json["basis"], &json["kind"]), (&2.into(), &"zup".into(), &"radiance".into()));
-    assert_eq!(own.len(), 9);
-    own[0].iter().for_each(|light| near(*light, first));
-    let slope = 4.0 * std::f64::consts::PI / 3.0 * 0.488603;
-    // Y1−1 is up, Y11 right.
-    near(own[3][0], slope);
-    near(own[1][2], slope);
-    near(own[2][0].abs() + own[3][1].abs() + own[3][2].abs(), 0.0);
-
-    let matt = ["--order", "4", "--kind", "irradiance", "--basis", "yup", "--window", "lanczos:2"];
-    bench.succeed(&[&["light", "harmonics", "sky.exr", "matt.json"], &matt[..]].concat());
-    let (json, matt) = coefficients(&bench, "matt.json");
-    assert_eq!((&json["order"], &json["basis"], &json["kind"]), (&4.into(), &"yup".into(), &"irradiance".into()));
-    assert_eq!(matt.len(), 25);
-    near(matt[0][1], std::f64::consts::PI * first);
-    // Lanczos' sin(π/2)/(π/2), Lambert's 2π/3; the pole is up.
-    near(matt[2][2], slope * 4.0 / 3.0);
-    assert!(matt[4..].iter().flatten().all(|light| *light == 0.0), "bands beyond the window");
-}
-
-#[test]
-fn harmonics_replace_nothing_and_need_all_the_sphere() {
-    let bench = Bench::new();
-    save_sky(&bench, "sky.exr", 64, |_, _| [1.0; 3]);
-    let to = ["light", "harmonics", "sky.exr"];
-    bench.succeed(&[&to[..], &["a.json"]].concat());
-    assert_says(&bench.fail(1, &[&to[..], &["a.json"]].concat()), &["a.json exists", "--overwrite"]);
-    bench.succeed(&[&to[..], &["a.json", "-y", "--order", "10"]].concat());
-    assert_eq!(coefficients(&bench, "a.json").1.len(), 121);
-    let fail = |args: &[&str], says: &[&str]| assert_says(&bench.fail(2, &[&to[..], args].concat()), says);
-    fail(&["b.exr"], &["written as JSON", ".json"]);
-    fail(&["b.json", "--order", "11"], &["expected a number from 0 to 10"]);
-    fail(&["b.json", "--window", "hamming"], &["expected hanning or lanczos"]);
-    fail(&["b.json", "--window", "lanczos:0"], &["a width more than 0, as in lanczos:4"]);
-    assert_says(&bench.fail(2, &["light", "harmonics", "builtin:demo", "b.json"]), &["is a formula"]);
-    save_sky(&bench, "sky_0001.exr", 16, |_, _| [1.0; 3]);
-    save_sky(&bench, "sky_0002.exr", 16, |_, _| [2.0; 3]);
-    let frames = ["light", "harmonics", "sky_####.exr", "frame.json"];
-    assert_says(&bench.fail(2, &frames), &["has 2 frames", "as in --frames 1"]);
-    bench.succeed(&[&frames[..], &["--frames", "2"]].concat());
-    assert!((coefficients(&bench, "frame.json").1[0][0] - 4.0 * std::f64::consts::PI.sqrt()).abs() < 1e-6);
-    bench.succeed(&["convert", "sky.exr", "dome.exr", "--to", "fulldome", "--size", "128"]);
-    let half = ["light", "harmonics", "dome.exr", "b.json", "--from", "fulldome"];
-    assert_says(&bench.fail(1, &half), &["50.0 % of the sphere", "--missing"]);
-    assert!(!Path::new(&bench.path("b.json")).exists());
-    bench.succeed(&[&half[..], &["--missing", "white"]].concat());
-    let (_, filled) = coefficients(&bench, "b.json");
-    assert!((filled[0][0] - 2.0 * std::f64::consts::PI.sqrt()).abs() < 2e-2, "{:?}", filled[0]);
 }

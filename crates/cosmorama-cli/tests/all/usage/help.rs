@@ -128,6 +128,9 @@ fn every_verb_has_a_manual_page_with_examples_and_without_empty_sections() {
         "man1/cosmorama-light-diffuse.1",
         "man1/cosmorama-light-specular.1",
         "man1/cosmorama-light-harmonics.1",
+        "man1/cosmorama-light-brdf.1",
+        "man1/cosmorama-light-sun.1",
+        "man1/cosmorama-light-table.1",
         "man7/cosmorama-spec.7",
     ];
     let names = names.iter().map(String::as_str).chain(others);

@@ -1,5 +1,5 @@
 use cosmorama::lighting::{AllTexels, LightFigures, Lobe, LobeAverages, PreparedLight};
-use cosmorama::raster::{Depth, Image, Rgba};
+use cosmorama::raster::{Image, Rgba};
 use cosmorama::world::World;
 
 use crate::diagnostic::{MISSING, Result, bail};
@@ -133,17 +133,10 @@ impl LightReport {
 
 /// Counts the samples that the output's sample type cannot hold.
 fn overflowed<'a>(job: &ConvertJob, images: impl Iterator<Item = &'a Image<Rgba>>) -> usize {
-    let most = match job.light.depth {
-        Depth::Float => f32::MAX,
-        Depth::Half => HALF,
-        _ => 1.0,
-    };
+    let most = job.light.depth.most();
     let samples = images.flat_map(|image| image.pixels()).flat_map(|pixel| &pixel.0[..3]);
     samples.filter(|sample| **sample > most).count()
 }
-
-/// Largest half float.
-const HALF: f32 = 65504.0;
 
 fn scaled(Rgba([red, green, blue, alpha]): Rgba, scale: f32) -> Rgba {
     Rgba([red * scale, green * scale, blue * scale, alpha])

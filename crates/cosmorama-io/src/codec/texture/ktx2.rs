@@ -1,7 +1,7 @@
 use std::io::SeekFrom;
 use std::path::Path;
 
-use cosmorama::raster::{AlphaMode, Depth, EncodedImage, FramePool, Transfer};
+use cosmorama::raster::{AlphaMode, Channels, Depth, EncodedImage, FramePool, Samples, Transfer};
 use ktx2::{Format as Vk, Header as Ktx2Header, Index, LevelIndex, SupercompressionScheme as Scheme};
 
 use super::cube::{CubeTexture, EXPECTED, levels_to_write};
@@ -9,7 +9,7 @@ use super::packing::{Packed, Packing};
 use super::texel::{BlockFormat, Texels};
 use crate::codec::interface::{Codec, Sink, Source};
 use crate::metadata::khronos;
-use crate::{Format, Header, ImageFile, IoError, Limits, WriteOptions};
+use crate::{Format, Header, ImageFile, IoError, Limits, Metadata, WriteOptions};
 
 const FORMAT: Format = Format::Ktx2;
 
@@ -62,28 +62,76 @@ impl Codec for Ktx2 {
         levels: &[EncodedImage],
         options: &WriteOptions,
     ) -> Result<(), IoError> {
-        let (faces, edge) = levels_to_write(path, FORMAT, levels, &options.metadata)?;
-        let float = levels.iter().any(|level| level.depth().is_float());
-        let (format, type_size, transfer) = match &options.metadata.transfer {
-            _ if float => (Vk::R16G16B16A16_SFLOAT, 2, descriptor::LINEAR),
-            None | Some(Transfer::Srgb) => (Vk::R8G8B8A8_SRGB, 1, descriptor::SRGB),
-            Some(transfer) => (Vk::R8G8B8A8_UNORM, 1, khronos::transfer_code(transfer)),
+        let (levels_of_faces, edge) = levels_to_write(path, FORMAT, levels, &options.metadata)?;
+        let depth = if levels.iter().any(|level| level.depth().is_float()) { Depth::Half } else { Depth::Eight };
+        let file = Written { width: edge, height: edge, faces: 6, depth, levels: levels_of_faces };
+        file.write(path, output, &options.metadata)
+    }
+}
+
+/// Writes a flat texture of one level, without faces: RGBA of 8 bits, halves or floats.
+pub(crate) fn write_flat(
+    path: &Path,
+    output: Sink<'_>,
+    image: &EncodedImage,
+    options: &WriteOptions,
+) -> Result<(), IoError> {
+    let (width, height) = (image.width(), image.height());
+    let texels: Vec<u8> = match (image.channels(), image.samples()) {
+        (Channels::Rgba, Samples::U8(samples)) => samples.clone(),
+        (Channels::Rgba, Samples::Half(samples)) => samples.iter().flat_map(|sample| sample.to_le_bytes()).collect(),
+        (Channels::Rgba, Samples::Float(samples)) => samples.iter().flat_map(|sample| sample.to_le_bytes()).collect(),
+        _ => {
+            return Err(IoError::CannotHold {
+                path: path.to_owned(),
+                format: FORMAT,
+                found: format!("{} of depth {}", image.channels(), image.depth()),
+                expected: "RGBA; depth 8, half, float".to_owned(),
+            });
+        }
+    };
+    let (Ok(columns), Ok(rows)) = (u32::try_from(width), u32::try_from(height)) else {
+        return Err(IoError::write(path, format_args!("{width}x{height} pixels")));
+    };
+    let file = Written { width: columns, height: rows, faces: 1, depth: image.depth(), levels: vec![texels] };
+    file.write(path, output, &options.metadata)
+}
+
+/// Texture to write.
+struct Written {
+    width: u32,
+    height: u32,
+    /// Six, or one of a flat texture.
+    faces: u32,
+    depth: Depth,
+    /// Texels of each level, face by face, beginning with the largest.
+    levels: Vec<Vec<u8>>,
+}
+
+impl Written {
+    fn write(&self, path: &Path, output: Sink<'_>, metadata: &Metadata) -> Result<(), IoError> {
+        let levels = &self.levels;
+        let (format, type_size, transfer) = match (self.depth, &metadata.transfer) {
+            (Depth::Float, _) => (Vk::R32G32B32A32_SFLOAT, 4, descriptor::LINEAR),
+            (Depth::Half, _) => (Vk::R16G16B16A16_SFLOAT, 2, descriptor::LINEAR),
+            (_, None | Some(Transfer::Srgb)) => (Vk::R8G8B8A8_SRGB, 1, descriptor::SRGB),
+            (_, Some(transfer)) => (Vk::R8G8B8A8_UNORM, 1, khronos::transfer_code(transfer)),
         };
-        let described = describe(float, transfer, khronos::primaries_code(options.metadata.primaries.as_ref()));
+        let described = describe(type_size as u8, transfer, khronos::primaries_code(metadata.primaries.as_ref()));
         let words = key_values(&[("KTXorientation", "rd"), ("KTXwriter", "cosmorama")]);
-        let dfd = (Ktx2Header::LENGTH + LevelIndex::LENGTH * faces.len()) as u32;
+        let dfd = (Ktx2Header::LENGTH + LevelIndex::LENGTH * levels.len()) as u32;
         let kvd = dfd + described.len() as u32;
         // A level begins at a multiple of a texel.
-        let start = (kvd + words.len() as u32).next_multiple_of(8);
+        let start = (kvd + words.len() as u32).next_multiple_of((4 * type_size).max(8));
         let header = Ktx2Header {
             format: Some(format),
             type_size,
-            pixel_width: edge,
-            pixel_height: edge,
+            pixel_width: self.width,
+            pixel_height: self.height,
             pixel_depth: 0,
             layer_count: 0,
-            face_count: 6,
-            level_count: faces.len() as u32,
+            face_count: self.faces,
+            level_count: levels.len() as u32,
             supercompression_scheme: None,
             index: Index {
                 dfd_byte_offset: dfd,
@@ -96,9 +144,9 @@ impl Codec for Ktx2 {
         };
         // The smallest level comes first in the file, but the largest first in the index. Six faces of RGBA keep all
         // levels aligned.
-        let after = |level: usize| faces[level + 1..].iter().map(|level| level.len() as u64).sum::<u64>();
-        let index = faces.iter().enumerate().map(|(level, faces)| {
-            let bytes = faces.len() as u64;
+        let after = |level: usize| levels[level + 1..].iter().map(|level| level.len() as u64).sum::<u64>();
+        let index = levels.iter().enumerate().map(|(level, texels)| {
+            let bytes = texels.len() as u64;
             LevelIndex {
                 byte_offset: u64::from(start) + after(level),
                 byte_length: bytes,
@@ -108,7 +156,7 @@ impl Codec for Ktx2 {
         let index: Vec<u8> = index.flat_map(|level| level.as_bytes()).collect();
         let padding = vec![0; (start - kvd) as usize - words.len()];
         let parts: [&[u8]; 5] = [&header.as_bytes(), &index, &described, &words, &padding];
-        let all = parts.into_iter().chain(faces.iter().rev().map(Vec::as_slice));
+        let all = parts.into_iter().chain(levels.iter().rev().map(Vec::as_slice));
         all.into_iter().try_for_each(|part| output.write_all(part)).map_err(|error| IoError::write(path, error))
     }
 }
@@ -245,9 +293,10 @@ fn texels(format: Vk) -> Option<(Texels, bool)> {
     })
 }
 
-/// Returns the data format descriptor of RGBA.
-fn describe(float: bool, transfer: u8, primaries: u8) -> Vec<u8> {
-    let (sample_bytes, premultiplied) = if float { (2_u8, descriptor::PREMULTIPLIED) } else { (1, 0) };
+/// Returns the data format descriptor of RGBA: samples of one byte, or floats of two or four.
+fn describe(sample_bytes: u8, transfer: u8, primaries: u8) -> Vec<u8> {
+    let float = sample_bytes > 1;
+    let premultiplied = if float { descriptor::PREMULTIPLIED } else { 0 };
     const BLOCK: u16 = 24 + 4 * 16;
     let mut bytes = Vec::new();
     bytes.extend((u32::from(BLOCK) + 4).to_le_bytes());

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::sphere::Direction;
 
-/// Axes in which harmonics are written. The frame is the world's: +X right, +Y up, −Z front.
+/// Axes in which harmonics are written. The frame is the world's: +X right, +Y up, −Z front, the middle of a panorama.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum HarmonicBasis {
     /// The functions of the world's own x, y and z: their pole is the world's +Z, the back.
@@ -12,14 +12,38 @@ pub enum HarmonicBasis {
     ZUp,
     /// The functions of x, −z and y: their pole is the world's +Y, up; their +y is the front.
     YUp,
+    /// The functions of −x, y and −z: +z is the front, +x the left.
+    FrontZ,
+    /// The functions of −z, y and x: +x is the front, +z the right.
+    FrontX,
+    /// The functions of −z, y and −x: +x is the front, +z the left, as in a left-handed frame.
+    FrontXLeftHanded,
 }
 
 impl HarmonicBasis {
-    /// Returns the axes' coordinates of a vector.
-    fn coordinates(self, vector: DVec3) -> [f64; 3] {
+    /// All axes.
+    pub const ALL: [Self; 5] = [Self::ZUp, Self::YUp, Self::FrontZ, Self::FrontX, Self::FrontXLeftHanded];
+
+    /// Returns the coordinates x, y and z of a direction, for which the functions are written.
+    pub fn coordinates(self, direction: Direction) -> [f64; 3] {
+        let DVec3 { x, y, z } = direction.vector();
         match self {
-            Self::ZUp => [vector.x, vector.y, vector.z],
-            Self::YUp => [vector.x, -vector.z, vector.y],
+            Self::ZUp => [x, y, z],
+            Self::YUp => [x, -z, y],
+            Self::FrontZ => [-x, y, -z],
+            Self::FrontX => [-z, y, x],
+            Self::FrontXLeftHanded => [-z, y, -x],
+        }
+    }
+
+    /// Returns the sides of the world to which +x, +y and +z point.
+    pub(super) fn sides(self) -> [&'static str; 3] {
+        match self {
+            Self::ZUp => ["right", "up", "back"],
+            Self::YUp => ["right", "front", "up"],
+            Self::FrontZ => ["left", "up", "front"],
+            Self::FrontX => ["front", "up", "right"],
+            Self::FrontXLeftHanded => ["front", "up", "left"],
         }
     }
 }
@@ -54,6 +78,22 @@ impl HarmonicFunctions {
         Self { order, basis, starts, steps }
     }
 
+    /// Visits the functions' polynomials in z, column by column: l, m, the factor of the highest power, and the share s by which
+    /// the polynomial without that factor is z p_(l−1) − s p_(l−2).
+    pub(super) fn polynomials(&self) -> impl Iterator<Item = (usize, usize, f64, f64)> {
+        let column = move |(m, start): (usize, &f64)| {
+            let mut leading = *start;
+            let of_band = move |l: usize| {
+                if l > m {
+                    leading *= step(l, m)[0];
+                }
+                (l, m, leading, if l > m + 1 { step(l - 1, m)[0].powi(-2) } else { 0.0 })
+            };
+            (m..=self.order).map(of_band)
+        };
+        self.starts.iter().enumerate().flat_map(column)
+    }
+
     /// Returns the number of functions: (order + 1)².
     pub fn count(&self) -> usize {
         (self.order + 1).pow(2)
@@ -68,7 +108,7 @@ impl HarmonicFunctions {
 
     /// Evaluates all functions in a direction, into a slice of [`count`](Self::count) values.
     pub(super) fn evaluate(&self, direction: Direction, values: &mut [f64]) {
-        let [x, y, z] = self.basis.coordinates(direction.vector());
+        let [x, y, z] = self.basis.coordinates(direction);
         let mut steps = self.steps.iter();
         // (x + iy)^m = sin^m θ (cos mφ + i sin mφ).
         let (mut cos, mut sin) = (1.0, 0.0);
@@ -107,7 +147,7 @@ mod tests {
     fn functions_are_orthonormal() {
         const NODES: usize = 24;
         const AROUND: usize = 48;
-        for basis in [HarmonicBasis::ZUp, HarmonicBasis::YUp] {
+        for basis in HarmonicBasis::ALL {
             let functions = HarmonicFunctions::new(10, basis);
             let count = functions.count();
             assert_eq!(count, 121);

@@ -3,7 +3,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::HarmonicFunctions;
+use super::basis::HarmonicFunctions;
 use crate::lighting::lobes::averages::Normalisation;
 use crate::lighting::texel_angles::texel_angles;
 use crate::raster::Rgba;

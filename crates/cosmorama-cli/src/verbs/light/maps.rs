@@ -5,24 +5,16 @@ use cosmorama::lighting::{ChainLevel, Lobe, RoughnessMap, SMOOTHEST};
 use cosmorama_convert::{Conversion, LightLevel, LightNormalisation, LightSettings};
 use cosmorama_spec::Shape;
 
-use super::{convert, harmonics};
 use crate::args::light::lobe::LobeName;
-use crate::args::{DiffuseArgs, LightArgs, LightVerb, MapArgs, Method, SpecularArgs, Unit};
+use crate::args::{DiffuseArgs, MapArgs, Method, SpecularArgs, Unit};
 use crate::console::Console;
 use crate::failure::usage;
 use crate::pipe::KeptStreams;
 use crate::report;
+use crate::verbs::convert;
 
-/// Makes light of a world.
-pub(super) fn run(args: LightArgs, console: &mut Console) -> Result<ExitCode> {
-    match args.verb {
-        LightVerb::Diffuse(args) => diffuse(*args, console),
-        LightVerb::Specular(args) => specular(*args, console),
-        LightVerb::Harmonics(args) => harmonics::run(*args, console),
-    }
-}
-
-fn diffuse(DiffuseArgs { map, normalise }: DiffuseArgs, console: &mut Console) -> Result<ExitCode> {
+/// Makes a map of the light on matt surfaces.
+pub(super) fn diffuse(DiffuseArgs { map, normalise }: DiffuseArgs, console: &mut Console) -> Result<ExitCode> {
     let normalisation = match normalise {
         Unit::Irradiance => LightNormalisation::Irradiance,
         Unit::Radiance => LightNormalisation::Radiance,
@@ -31,7 +23,8 @@ fn diffuse(DiffuseArgs { map, normalise }: DiffuseArgs, console: &mut Console) -
     make(map, LightSettings { exact, ..LightSettings::map(Lobe::LAMBERT, normalisation) }, console)
 }
 
-fn specular(args: SpecularArgs, console: &mut Console) -> Result<ExitCode> {
+/// Makes a map of reflections, or a chain of them.
+pub(super) fn specular(args: SpecularArgs, console: &mut Console) -> Result<ExitCode> {
     let levels = levels(&args)?;
     let light = LightSettings { levels, normalisation: LightNormalisation::Radiance, exact: args.map.exact };
     make(args.map, light, console)
