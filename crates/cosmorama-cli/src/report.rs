@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use cosmorama_convert::{CpuSeconds, LightReport, Remade, Report, Severity};
+use cosmorama_convert::{CpuSeconds, InterpolationReport, LightReport, Remade, Report, Severity};
 use serde::Serialize;
 
 use crate::console::{Console, in_options, say};
@@ -21,6 +21,8 @@ struct JsonReport<'a> {
     peak_memory_bytes: Option<u64>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     light: Vec<JsonLight>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    interpolated: Vec<JsonInterpolated>,
     warnings: Vec<String>,
     notes: Vec<String>,
 }
@@ -37,6 +39,20 @@ struct JsonCpuSeconds {
     plan: f64,
     filter: f64,
     encode: f64,
+}
+
+/// Difference of an interpolated map from what it would be if it were computed.
+#[derive(Serialize)]
+struct JsonInterpolated {
+    frame: Option<u64>,
+    rms: f64,
+    largest: f64,
+}
+
+impl JsonInterpolated {
+    fn of(report: &InterpolationReport) -> Self {
+        Self { frame: report.frame, rms: report.difference.rms, largest: report.difference.largest }
+    }
 }
 
 /// Light that went into a map, and light that came out.
@@ -89,6 +105,7 @@ pub(crate) fn to_json(report: &Report) -> Result<String> {
         cpu_seconds: JsonCpuSeconds { decode, plan, filter, encode },
         peak_memory_bytes: report.peak_memory_bytes,
         light: report.light.iter().map(JsonLight::of).collect(),
+        interpolated: report.interpolated.iter().map(JsonInterpolated::of).collect(),
         warnings: told(report, |severity| severity != Severity::Note),
         notes: told(report, |severity| severity == Severity::Note),
     };
@@ -114,4 +131,8 @@ pub(crate) fn tell(report: &Report, console: &Console) {
         "{what}{skipped} in {:.2} s (CPU: decode {decode:.2} s, plan {plan:.2} s, filter {filter:.2} s, encode {encode:.2} s)",
         report.wall.as_secs_f64()
     ));
+    if !report.interpolated.is_empty() {
+        let worst = report.interpolated.iter().map(|report| report.difference.rms).fold(0.0, f64::max);
+        say(format_args!("interpolated frames differ from computed ones by {:.3} % at most (rms)", 100.0 * worst));
+    }
 }

@@ -26,12 +26,12 @@ pub use conversion::{
 };
 pub use detect::{Continuity, FacePixels, GivenFaces, Likely, damage_of, light_of, likely};
 pub use diagnostic::{Code, ConvertError, Diagnostic, Message, Outcome, Part, Remedy, Result, Setting, Severity};
-pub use engine::{CpuSeconds, LightReport};
+pub use engine::{CpuSeconds, InterpolationReport, LightReport};
 pub use input::{Builtin, Input, InputView, Listed, face_set, is_one_file, listed};
 pub use job::{Remade, check_apart, real_path, refuse_existing};
 pub use packing::{Place, face_placement};
 pub use settings::{
-    BlurMethod, CameraMovement, Conversion, DepthKind, Existing, GeometrySettings, LayerSettings, LightLevel,
+    BlurMethod, CameraMovement, Conversion, DepthKind, Every, Existing, GeometrySettings, LayerSettings, LightLevel,
     LightNormalisation, LightSettings, LimitSettings, MotionBlur, NormalSpace, OcioSettings,
 };
 pub use source::{Disk, Files, InMemory, MemoryBudget, ViewFiles, existing_frames, peak_bytes, probe, read};

@@ -6,7 +6,7 @@ use cosmorama::motion::{Easing, Ramp, Shutter, Smoothness};
 use cosmorama::raster::{Depth, Primaries, Rgba};
 use cosmorama::sphere::{Angle, Orientation};
 use cosmorama_io::pending::Unfinished;
-use cosmorama_io::{Compression, FrameList};
+use cosmorama_io::{Compression, FrameList, Remark};
 use cosmorama_spec::{FilterName, KernelName, MemorySize, Missing, Size, Spec, TransferName};
 
 use crate::source::{Disk, Files};
@@ -163,6 +163,17 @@ pub struct LightSettings {
     pub normalisation: LightNormalisation,
     /// Whether every texel is summed for every pixel.
     pub exact: bool,
+    /// Frames of a sequence that are computed; all, unless given.
+    pub every: Option<Every>,
+}
+
+/// Rule by which some frames of a sequence are computed, and the others interpolated between them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Every {
+    /// Distance of computed frames. The last is computed, too.
+    pub frames: usize,
+    /// Whether a frame in the middle of each gap is computed, to tell how far the interpolated one is from it.
+    pub measured: bool,
 }
 
 /// Level of a chain of maps.
@@ -188,13 +199,22 @@ pub enum LightNormalisation {
 impl LightSettings {
     /// Returns the settings of a single map under a lobe.
     pub fn map(lobe: Lobe, normalisation: LightNormalisation) -> Self {
-        Self { levels: vec![LightLevel::Lobe(lobe)], normalisation, exact: false }
+        Self { levels: vec![LightLevel::Lobe(lobe)], normalisation, exact: false, every: None }
     }
 
     /// Returns the lobes of its levels.
     pub fn lobes(&self) -> Vec<Lobe> {
         let lobe = |level: &LightLevel| if let LightLevel::Lobe(lobe) = level { Some(*lobe) } else { None };
         self.levels.iter().filter_map(lobe).collect()
+    }
+
+    /// Returns the statement of the map's unit for its file.
+    pub(crate) fn remark(&self) -> Remark {
+        let text = match self.normalisation {
+            LightNormalisation::Irradiance => "irradiance",
+            LightNormalisation::Radiance => "radiance",
+        };
+        Remark { name: "lightUnit", text }
     }
 
     /// Returns the factor of an average in the map.

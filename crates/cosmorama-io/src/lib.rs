@@ -54,7 +54,7 @@ pub use header::{Choice, Format, Header, ImageFile, LayeredImage, Plane, PlaneSa
 pub use limits::Limits;
 pub use metadata::{
     Attribute, Carried, EnvMap, Exif, FilePart, Kept, Layers, Metadata, MetadataRoom, NamedChannel, Pose, ProfileFault,
-    SampleKind, TextChunk, Window,
+    Remark, SampleKind, TextChunk, Window,
 };
 pub use pto::{PtoError, PtoImage, PtoPanorama, PtoProject};
 pub use sequence::{CameraPath, CameraPathError, FoundFrames, FrameList, FramePattern, Frames, PathPose};

@@ -37,11 +37,6 @@ mod input {
     mod tiffs;
 }
 
-mod light {
-    mod maps;
-    mod shade;
-}
-
 mod lenses {
     mod calibrations;
     mod hugin;
@@ -53,6 +48,7 @@ mod light {
     mod brdf;
     mod harmonics;
     mod maps;
+    mod shade;
     mod sky;
     mod sun;
     mod table;

@@ -12,7 +12,7 @@ use super::profile;
 use super::working::{Working, clips, white_of};
 use crate::diagnostic::{BACKGROUND, Code, DEPTH, Diagnostic, MISSING, Result, usage_as};
 use crate::input::Input;
-use crate::settings::Conversion;
+use crate::settings::{Conversion, LightSettings};
 use crate::target::Target;
 
 /// Transfer functions and primaries of inputs and outputs, and the outputs' channels and depth.
@@ -313,6 +313,7 @@ fn metadata(
     let is_named = !working.primaries.is_same(&Primaries::REC709)
         || headers.first().is_some_and(|header| header.format == target.format && header.metadata.primaries.is_some());
     Metadata {
+        remarks: args.light.iter().map(LightSettings::remark).collect(),
         transfer: Some(transfer.clone()),
         icc: icc.filter(|_| keep),
         profile_fault: None,

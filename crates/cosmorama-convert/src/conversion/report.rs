@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use crate::diagnostic::Diagnostic;
-use crate::engine::{CpuSeconds, LightReport, Stages};
+use crate::engine::{CpuSeconds, InterpolationReport, LightReport, Stages};
 use crate::job::{Outputs, Remade};
 use crate::source::peak_bytes;
 
@@ -28,6 +28,8 @@ pub struct Report {
     pub peak_memory_bytes: Option<u64>,
     /// Figures of maps of light, by frame; empty for pictures.
     pub light: Vec<LightReport>,
+    /// Differences of interpolated maps from computed ones, where that is asked for.
+    pub interpolated: Vec<InterpolationReport>,
     /// Diagnostics of the conversion.
     pub diagnostics: Vec<Diagnostic>,
 }
@@ -50,6 +52,7 @@ impl Report {
             cpu_seconds: stages.cpu_seconds(),
             peak_memory_bytes: peak_bytes(),
             light: Vec::new(),
+            interpolated: Vec::new(),
             diagnostics,
         }
     }

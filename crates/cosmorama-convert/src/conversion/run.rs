@@ -12,7 +12,8 @@ use super::{Checked, Observer, Report, Stop, Work, watched};
 use crate::diagnostic::{Code, ConvertError, DEPTH, Diagnostic, Result};
 use crate::engine::unfiltered::{OutputFile, formula, st_map};
 use crate::engine::{
-    Engine, FrameFile, FrameLight, Levels, LightReport, Sequence, Stage, Stages, ViewImage, Watcher, Which, warnings,
+    Engine, FrameFile, FrameLight, InterpolationReport, Levels, LightReport, Sequence, Stage, Stages, ViewImage,
+    Watcher, Which, warnings,
 };
 use crate::job::options::write_options;
 use crate::job::{Content, ConvertJob, FrameOutputs};
@@ -24,9 +25,9 @@ impl Checked {
     /// When a file cannot be read or written, its content contradicts its header, or the observer stops the run.
     pub fn run(mut self, observer: &mut dyn Observer) -> Result<Report> {
         observer.begin(self.job.outputs.frames.len());
-        let mut lit = Vec::new();
+        let (mut lit, mut interpolated) = (Vec::new(), Vec::new());
         match self.content {
-            Content::World => lit = self.convert(observer)?,
+            Content::World => (lit, interpolated) = self.convert(observer)?,
             Content::StMap => self.each_file(observer, st_map::make)?,
             Content::Formula(world) => {
                 let options = write_options(&self.settings, self.job.target.format, &self.job.outputs, &self.job.light);
@@ -41,7 +42,7 @@ impl Checked {
             BTreeSet::from([PathBuf::from(&settings.input)])
         };
         let report = Report::new(inputs, &job.outputs, start.elapsed(), &stages, diagnostics);
-        Ok(Report { light: lit, ..report })
+        Ok(Report { light: lit, interpolated, ..report })
     }
 
     /// Makes one file after the other.
@@ -61,7 +62,7 @@ impl Checked {
     }
 
     /// Converts the light of files.
-    fn convert(&mut self, observer: &mut dyn Observer) -> Result<Vec<LightReport>> {
+    fn convert(&mut self, observer: &mut dyn Observer) -> Result<(Vec<LightReport>, Vec<InterpolationReport>)> {
         let Self { settings, job, pool, stages, diagnostics, .. } = self;
         let options = write_options(settings, job.target.format, &job.outputs, &job.light);
         let prepare = |progress: &dyn Progress| stages.alone(Stage::Plan, || Engine::new(job, options, progress));
@@ -72,8 +73,8 @@ impl Checked {
         let mut run = Run { job, engine, stages, pool, observer, diagnostics, from, tally, is_first: true, done: 0 };
         run.tell(engine.told());
         let made = match &job.outputs.frames[..] {
-            [] => Ok(()),
-            [frame] => run.still(frame),
+            [] => Ok(Vec::new()),
+            [frame] => run.still(frame).map(|()| Vec::new()),
             _ => {
                 let sequence = Sequence { job, engine, stages, pool };
                 stages.among(Stage::Filter, || sequence.run(&mut run))
@@ -87,11 +88,12 @@ impl Checked {
         }
         run.tell(told);
         // Frames that were being written at a stop are done by now.
-        made.map_err(|error| if let ConvertError::Stopped { .. } = error { run.stopped() } else { error })?;
+        let interpolated =
+            made.map_err(|error| if let ConvertError::Stopped { .. } = error { run.stopped() } else { error })?;
         let lit = engine.light_reports();
         let told = lit.iter().filter_map(|report| too_bright(job, (report.frame, report.level), report.overflowed));
         run.tell(told.collect());
-        Ok(lit)
+        Ok((lit, interpolated))
     }
 }
 
@@ -103,8 +105,8 @@ fn too_bright(job: &ConvertJob, (frame, level): (Option<u64>, usize), samples: u
     }
     (samples > 0).then(|| {
         let message = format!(
-            "{of_frame}{samples} {} brighter than {DEPTH} {} holds, and {} cut to its largest; write OpenEXR or Radiance files with \
-             {DEPTH} float",
+            "{of_frame}{samples} {} brighter than {DEPTH} {} holds, and {} cut to its largest; write OpenEXR, Radiance, KTX 2 or \
+             DDS files with {DEPTH} float",
             if samples == 1 { "sample is" } else { "samples are" },
             job.light.depth,
             if samples == 1 { "is" } else { "are" }

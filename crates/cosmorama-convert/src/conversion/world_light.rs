@@ -237,7 +237,7 @@ impl WorldLight {
         let encoded = EncodedImage::encode(&image, channels, depth, &transfer);
         let envmap = self.job.input.envmap();
         let options = write_options(&self.settings, format, &self.job.outputs, &self.job.light);
-        let metadata = Metadata { transfer: Some(transfer), envmap, ..options.metadata };
+        let metadata = Metadata { transfer: Some(transfer), envmap, remarks: Vec::new(), ..options.metadata };
         Ok(write(path, &encoded, &WriteOptions { metadata, ..options })?)
     }
 

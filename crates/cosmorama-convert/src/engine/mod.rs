@@ -12,6 +12,7 @@ pub(crate) mod unfiltered;
 pub(crate) mod warnings;
 mod writer;
 
+pub use lighting::between::InterpolationReport;
 pub use lighting::light_maps::LightReport;
 pub use timing::CpuSeconds;
 

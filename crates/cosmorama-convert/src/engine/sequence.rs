@@ -16,6 +16,7 @@ use rayon::{Scope, ThreadPool};
 
 use crate::diagnostic::{InPlace, Result, bail};
 use crate::engine::frame::files::named;
+use crate::engine::lighting::between::{Between, InterpolationReport};
 use crate::engine::{Engine, FrameFile, FrameLight, Levels, Stage, Stages, ViewImage, Which};
 use crate::job::{ConvertJob, FrameOutputs, QueueDepth};
 
@@ -53,7 +54,7 @@ struct Queues<'a> {
 impl<'a> Sequence<'a> {
     /// Makes all frames. The first error ends the run: frames before it, and those in progress, are finished, and no
     /// other is begun.
-    pub(crate) fn run(&self, watcher: &mut dyn Watcher) -> Result<()> {
+    pub(crate) fn run(&self, watcher: &mut dyn Watcher) -> Result<Vec<InterpolationReport>> {
         let failure = &FirstFailure::none();
         let mut queues = Queues::default();
         self.pool.in_place_scope(|scope| {
@@ -72,13 +73,15 @@ impl<'a> Sequence<'a> {
         failure: &'s FirstFailure,
         queues: &mut Queues<'a>,
         watcher: &mut dyn Watcher,
-    ) -> Result<()>
+    ) -> Result<Vec<InterpolationReport>>
     where
         'a: 's,
     {
         let QueueDepth { read, written, .. } = self.engine.queue_depth();
         let mut light = self.engine.frame_light();
-        let mut upcoming = (1..).zip(&self.job.outputs.frames);
+        let frames = &self.job.outputs.frames;
+        let mut between = Between::new(frames, self.job.lighting.as_ref().and_then(|light| light.every));
+        let mut upcoming = between.computed().into_iter().map(|place| (place, &frames[place - 1]));
         let mut which = Which::All;
         loop {
             while queues.read.len() < read {
@@ -86,10 +89,10 @@ impl<'a> Sequence<'a> {
                 queues.read.push_back((place, frame, self.have_read((scope, failure, place), frame, which)));
                 which = Which::Moving;
             }
-            let Some((place, frame, results)) = queues.read.pop_front() else { return Ok(()) };
+            let Some((place, frame, results)) = queues.read.pop_front() else { return Ok(between.reports()) };
             if failure.is_before(place) {
                 // The error is reported where that frame is awaited.
-                return Ok(());
+                return Ok(between.reports());
             }
             // Notes the failure, so that no files of later frames are read while earlier frames are written. Errors in
             // the frame's own files are noted by their tasks.
@@ -106,12 +109,21 @@ impl<'a> Sequence<'a> {
             watcher.look(frame, &light);
             queues.finish_written(written - 1, watcher)?;
             if failure.is_before(place) {
-                return Ok(());
+                return Ok(between.reports());
             }
             let made = watcher.render(frame, &light);
             let pictures = made.at(|| named(frame)).map_err(failed)?;
-            let written = self.have_written((scope, failure, place), frame, (pictures, light.carried()));
-            queues.written.push_back((frame, written));
+            if !between.is_key(place) {
+                between.compare(place, &pictures);
+                continue;
+            }
+            let interpolated = between.up_to(place, &pictures);
+            for (place, pictures) in interpolated.into_iter().chain([(place, pictures)]) {
+                queues.finish_written(written - 1, watcher)?;
+                let frame = &frames[place - 1];
+                let being_written = self.have_written((scope, failure, place), frame, (pictures, light.carried()));
+                queues.written.push_back((frame, being_written));
+            }
         }
     }
 

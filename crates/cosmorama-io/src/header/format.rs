@@ -73,7 +73,7 @@ impl Properties {
 
     /// Properties that cube map textures share: the depths and channels that every graphics card supports.
     const TEXTURE: Self = Self {
-        depths: &[Depth::Eight, Depth::Half],
+        depths: &[Depth::Eight, Depth::Half, Depth::Float],
         channels: &[Channels::Rgba],
         is_cube_map: true,
         holds_levels: true,
@@ -201,9 +201,11 @@ impl Format {
         self.depths().contains(&depth) && self.channels().contains(&channels)
     }
 
-    /// Returns this depth if the format can hold it, else the one that loses least.
+    /// Returns this depth if the format can hold it, else the one that loses least. Light in textures is in halves, which graphics
+    /// cards filter: floats only where they are asked for.
     pub fn nearest_depth(self, depth: Depth) -> Depth {
-        if self.depths().contains(&depth) {
+        let is_large = self.is_cube_map() && depth == Depth::Float;
+        if self.depths().contains(&depth) && !is_large {
             return depth;
         }
         match (self, depth) {

@@ -57,6 +57,18 @@ pub struct Metadata {
     pub pose: Option<Pose>,
     /// Other metadata of the file, which outputs may take over.
     pub carried: Arc<Carried>,
+    /// Statements of the program about the pixels to write, each under a name, such as the unit of a map of light. Reading finds
+    /// them again among `carried`, where the format has a place for both.
+    pub remarks: Vec<Remark>,
+}
+
+/// Statement about the pixels: a name and a text, both in ASCII.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Remark {
+    /// Name, at most 31 letters.
+    pub name: &'static str,
+    /// Text.
+    pub text: &'static str,
 }
 
 /// Reason why an ICC profile cannot be applied.

@@ -5,8 +5,8 @@ use std::io::Cursor;
 use crate::common::picture;
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples, Transfer};
 use cosmorama_io::{
-    EnvMap, Format, Limits, Metadata, Window, WriteOptions, probe, probe_from, read, read_from, write, write_levels,
-    write_to,
+    EnvMap, Format, Limits, Metadata, Remark, Window, WriteOptions, probe, probe_from, read, read_from, write,
+    write_levels, write_to,
 };
 
 const EXTENSIONS: [(Format, &str); 6] = [
@@ -84,9 +84,12 @@ fn cubes_in_texture_files() {
     let folder = tempfile::tempdir().unwrap();
     for extension in ["ktx2", "dds"] {
         let path = folder.path().join(format!("a.{extension}"));
-        for (depth, transfer) in
-            [(Depth::Eight, Transfer::Srgb), (Depth::Eight, Transfer::Linear), (Depth::Half, Transfer::Linear)]
-        {
+        for (depth, transfer) in [
+            (Depth::Eight, Transfer::Srgb),
+            (Depth::Eight, Transfer::Linear),
+            (Depth::Half, Transfer::Linear),
+            (Depth::Float, Transfer::Linear),
+        ] {
             let image = picture(7, 42, Channels::Rgba, depth);
             let envmap = Some(EnvMap::GlCube);
             let metadata = Metadata { envmap, transfer: Some(transfer.clone()), ..Metadata::default() };
@@ -112,7 +115,8 @@ fn cubes_in_texture_files() {
         let path = folder.path().join(format!("levels.{extension}"));
         let levels: Vec<EncodedImage> =
             [7, 3, 1].map(|edge| picture(edge, 6 * edge, Channels::Rgba, Depth::Half)).into();
-        let metadata = Metadata { envmap: Some(EnvMap::GlCube), ..Metadata::default() };
+        let remarks = vec![Remark { name: "lightUnit", text: "radiance" }];
+        let metadata = Metadata { envmap: Some(EnvMap::GlCube), remarks, ..Metadata::default() };
         write_levels(&path, &levels, &WriteOptions::with_metadata(metadata.clone())).unwrap();
         assert!(read(&path, &Limits::default()).unwrap().image == levels[0], "{extension}");
         for wrong in [&levels[1..=1], &levels[2..]] {
@@ -330,4 +334,44 @@ fn a_tga_whose_fourth_byte_is_padding_is_opaque() {
     assert_eq!(read(&path, &Limits::default()).unwrap().image.channels(), Channels::Rgb);
     std::fs::write(&path, [&start[..], &[8, 1, 2, 3, 0]].concat()).unwrap();
     assert_eq!(read(&path, &Limits::default()).unwrap().image.channels(), Channels::Rgba);
+}
+
+/// Statements about pixels are found again where a format has a place for them.
+#[test]
+fn remarks_are_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let remarks = vec![Remark { name: "lightUnit", text: "irradiance" }];
+    for (extension, depth) in
+        [("exr", Depth::Float), ("png", Depth::Sixteen), ("tif", Depth::Float), ("hdr", Depth::Float)]
+    {
+        let path = folder.path().join(format!("a.{extension}"));
+        let metadata = Metadata { remarks: remarks.clone(), ..Metadata::default() };
+        write(&path, &picture(8, 4, Channels::Rgb, depth), &WriteOptions::with_metadata(metadata)).unwrap();
+        let carried = read(&path, &Limits::default()).unwrap().metadata.carried;
+        match extension {
+            "exr" => {
+                let found = carried.attributes.iter().find(|attribute| attribute.name == "lightUnit").unwrap();
+                assert_eq!((found.kind.as_str(), &found.bytes[..]), ("string", &b"irradiance"[..]));
+                // Carried along, it gives way to another.
+                let remarks = vec![Remark { name: "lightUnit", text: "radiance" }];
+                let metadata = Metadata { remarks, carried, ..Metadata::default() };
+                write(&path, &picture(8, 4, Channels::Rgb, depth), &WriteOptions::with_metadata(metadata)).unwrap();
+                let carried = read(&path, &Limits::default()).unwrap().metadata.carried;
+                let found: Vec<_> = carried.attributes.iter().filter(|found| found.name == "lightUnit").collect();
+                assert_eq!((found.len(), &found[0].bytes[..]), (1, &b"radiance"[..]));
+            }
+            "png" => {
+                let found = carried.texts.iter().find(|text| text.keyword() == "lightUnit").unwrap();
+                assert_eq!(found.text().as_deref(), Some("irradiance"));
+            }
+            "tif" => {
+                let bytes = std::fs::read(&path).unwrap();
+                assert!(bytes.windows(21).any(|bytes| bytes == b"lightUnit: irradiance"));
+            }
+            _ => {
+                let bytes = std::fs::read(&path).unwrap();
+                assert!(bytes.starts_with(b"#?RADIANCE\nSOFTWARE=cosmorama\nlightUnit=irradiance\n"));
+            }
+        }
+    }
 }

@@ -7,6 +7,7 @@ pub(crate) mod energy_balance;
 mod figures;
 mod harmonics;
 mod lobes;
+mod map_difference;
 mod roughness_map;
 mod suns;
 mod texel_angles;
@@ -20,5 +21,6 @@ pub use harmonics::{
     HarmonicWindow, Harmonics, HarmonicsError, PresetError, SeriesAccuracy, StoredHarmonics,
 };
 pub use lobes::{AllTexels, LightTree, Lobe, LobeAverages, LobeError, PreparedLight, SHARPEST, SMOOTHEST};
+pub use map_difference::MapDifference;
 pub use roughness_map::{ChainLevel, RoughnessMap};
 pub use suns::{Sun, Suns};

@@ -15,11 +15,12 @@ use crate::args::settings::existing;
 use crate::args::{ProgressStyle, with_examples};
 
 /// Example commands in the help of `light diffuse`.
-pub(super) const DIFFUSE_EXAMPLES: [&str; 4] = [
+pub(super) const DIFFUSE_EXAMPLES: [&str; 5] = [
     "cosmorama light diffuse sky.hdr light.exr",
     "cosmorama light diffuse sky.exr 'light/{face}.exr' --size 32",
     "cosmorama light diffuse sky.png light.png --to mercator --normalise radiance",
     "cosmorama light diffuse dome.exr light.exr --from fulldome --missing black",
+    "cosmorama light diffuse 'sky.####.exr' 'light.####.exr' --every 10",
 ];
 
 /// Example commands in the help of `light specular`.
@@ -42,6 +43,12 @@ pub(crate) struct DiffuseArgs {
     /// irradiance: E (a world of 1 gives π); radiance: E/π (1)
     #[arg(long, value_enum, value_name = "UNIT", default_value_t = Unit::Irradiance, hide_possible_values = true, help_heading = "Light")]
     pub(crate) normalise: Unit,
+    /// Compute each Nth frame and the last, and interpolate the others between
+    #[arg(long, value_name = "N", value_parser = every, allow_negative_numbers = true, conflicts_with = "resume", help_heading = "Frames and files")]
+    pub(crate) every: Option<usize>,
+    /// Compute a frame in the middle of each gap, too, and tell how far the interpolated one is from it
+    #[arg(long, requires = "every", help_heading = "Frames and files")]
+    pub(crate) every_error: bool,
 }
 
 /// Make a map of what a glossy surface reflects, by the mirror direction.
@@ -89,6 +96,10 @@ pub(crate) enum Method {
     Lobes,
     /// Means of two by two pixels of the level before (Greene 1986, section 7)
     Mipmap,
+}
+
+fn every(text: &str) -> Result<usize, String> {
+    text.parse().ok().filter(|frames| *frames > 0).ok_or_else(|| "expected a number of frames, 1 at least".to_owned())
 }
 
 fn levels(text: &str) -> Result<usize, String> {

@@ -2,7 +2,7 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use cosmorama::lighting::{ChainLevel, Lobe, RoughnessMap, SMOOTHEST};
-use cosmorama_convert::{Conversion, LightLevel, LightNormalisation, LightSettings};
+use cosmorama_convert::{Conversion, Every, LightLevel, LightNormalisation, LightSettings};
 use cosmorama_spec::Shape;
 
 use crate::args::light::lobe::LobeName;
@@ -14,19 +14,22 @@ use crate::report;
 use crate::verbs::convert;
 
 /// Makes a map of the light on matt surfaces.
-pub(super) fn diffuse(DiffuseArgs { map, normalise }: DiffuseArgs, console: &mut Console) -> Result<ExitCode> {
+pub(super) fn diffuse(args: DiffuseArgs, console: &mut Console) -> Result<ExitCode> {
+    let DiffuseArgs { map, normalise, every, every_error } = args;
     let normalisation = match normalise {
         Unit::Irradiance => LightNormalisation::Irradiance,
         Unit::Radiance => LightNormalisation::Radiance,
     };
     let exact = map.exact;
-    make(map, LightSettings { exact, ..LightSettings::map(Lobe::LAMBERT, normalisation) }, console)
+    let every = every.map(|frames| Every { frames, measured: every_error });
+    make(map, LightSettings { exact, every, ..LightSettings::map(Lobe::LAMBERT, normalisation) }, console)
 }
 
 /// Makes a map of reflections, or a chain of them.
 pub(super) fn specular(args: SpecularArgs, console: &mut Console) -> Result<ExitCode> {
     let levels = levels(&args)?;
-    let light = LightSettings { levels, normalisation: LightNormalisation::Radiance, exact: args.map.exact };
+    let light =
+        LightSettings { levels, normalisation: LightNormalisation::Radiance, exact: args.map.exact, every: None };
     make(args.map, light, console)
 }
 

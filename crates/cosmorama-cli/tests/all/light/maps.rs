@@ -257,3 +257,63 @@ fn a_chain_under_a_sun_is_finite() {
     let halves = bytes[first..].chunks_exact(2).map(|bytes| half::f16::from_le_bytes([bytes[0], bytes[1]]));
     assert!(halves.into_iter().all(half::f16::is_finite));
 }
+
+/// Light that grows by the square of the frame's number.
+#[test]
+fn frames_between_computed_ones_are_interpolated() {
+    let bench = Bench::new();
+    for frame in 1..=8 {
+        save_sky(&bench, &format!("sky_{frame:02}.exr"), 32, |_, _| [(frame * frame) as f32, 1.0, 0.5]);
+    }
+    let map = ["light", "diffuse", "sky_##.exr", "map_##.exr", "--size", "16", "--normalise", "radiance"];
+    let args = [&map[..], &["--every", "3", "--every-error", "--json"]].concat();
+    let report: Value = serde_json::from_str(&bench.succeed(&args)).unwrap();
+    // Frames 1, 4, 7 and 8 are computed.
+    for (frame, expected) in [(1, 1.0), (2, 6.0), (3, 11.0), (4, 16.0), (5, 27.0), (6, 38.0), (7, 49.0), (8, 64.0)] {
+        for [red, green, blue] in light(&bench, &format!("map_{frame:02}.exr")) {
+            assert!((red / expected - 1.0).abs() < 1e-5 && (green - 1.0).abs() < 1e-5 && (blue - 0.5).abs() < 1e-5);
+        }
+    }
+    assert_eq!(report["frames"], 8);
+    let told = report["interpolated"].as_array().unwrap();
+    let frames: Vec<u64> = told.iter().map(|told| told["frame"].as_u64().unwrap()).collect();
+    assert_eq!(frames, [2, 5]);
+    // 6 for 4, beside a green of 1 and a blue of a half.
+    assert!((told[0]["rms"].as_f64().unwrap() - 2.0 / 17.25f64.sqrt()).abs() < 1e-5, "{report}");
+    assert!((told[0]["largest"].as_f64().unwrap() - 0.5).abs() < 1e-5, "{report}");
+    let plain = bench.run(&[&map[..], &["--every", "3", "-y"]].concat());
+    assert!(plain.status.success() && !text(&plain.stderr).contains("interpolated"));
+    assert!((light(&bench, "map_06.exr")[0][0] - 38.0).abs() < 1e-3);
+    assert_says(&bench.fail(2, &[&map[..], &["--every", "0", "-y"]].concat()), &["a number of frames, 1 at least"]);
+    assert_says(&bench.fail(2, &[&map[..], &["--every-error", "-y"]].concat()), &["--every <N>"]);
+    assert_says(&bench.fail(2, &[&map[..], &["--every", "3", "--resume"]].concat()), &["--resume"]);
+}
+
+/// Floats hold a sun that halves cut, and files say what their samples are.
+#[test]
+fn textures_hold_suns_in_floats_and_say_their_unit() {
+    let bench = Bench::new();
+    save_sky(&bench, "sky.exr", 64, |i, j| if (i, j) == (20, 10) { [250_000.0; 3] } else { [0.18; 3] });
+    for (name, format, most) in [("half.ktx2", 97, 65504.0), ("float.ktx2", 109, 1e30), ("float.dds", 0, 1e30)] {
+        let depth: &[&str] = if name == "half.ktx2" { &[] } else { &["--depth", "float"] };
+        let chain = ["light", "specular", "sky.exr", name, "--levels", "3", "--size", "64", "--json"];
+        let report: Value = serde_json::from_str(&bench.succeed(&[&chain[..], depth].concat())).unwrap();
+        let cut = report["light"][0]["overflowed_samples"].as_u64().unwrap();
+        let peak = report["light"][0]["peak_out"].as_f64().unwrap();
+        assert!(peak > 65504.0 && (cut > 0) == (peak > most), "{name}: {report}");
+        let bytes = bench.bytes(name);
+        if format > 0 {
+            assert_eq!(u32::from_le_bytes(bytes[12..16].try_into().unwrap()), format, "{name}");
+            assert!(bytes.windows(18).any(|key| key == b"lightUnit\0radiance"), "{name}");
+        }
+        // Read again, it has the peak that was told.
+        bench.succeed(&["convert", name, "f_{face}.exr", "--to", "cube", "--filter", "point", "-y"]);
+        let faces =
+            ["front", "back", "left", "right", "top", "bottom"].map(|face| light(&bench, &format!("f_{face}.exr")));
+        let read = faces.iter().flatten().flatten().fold(0.0f32, |most, light| most.max(*light));
+        let expected = if depth.is_empty() { 65504.0 } else { peak };
+        assert!((f64::from(read) / expected - 1.0).abs() < 1e-5, "{name}: {read}, {expected}");
+    }
+    bench.succeed(&["light", "diffuse", "sky.exr", "map.exr"]);
+    assert!(bench.bytes("map.exr").windows(10).any(|text| text == b"irradiance"));
+}

@@ -5,7 +5,7 @@ use cosmorama::raster::{AlphaMode, Channels, Depth, EncodedImage, FramePool, Sam
 use exr::compression::Compression as Packing;
 use exr::image::write::WritableImage;
 use exr::image::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer};
-use exr::meta::attribute::{EnvironmentMap, Text};
+use exr::meta::attribute::{AttributeValue, EnvironmentMap, Text};
 use exr::meta::header::LayerAttributes;
 use exr::prelude::SmallVec;
 use half::f16;
@@ -109,6 +109,8 @@ fn save(
     };
     let mut time_code = None;
     attributes::add(&options.metadata.carried, &mut own, &mut time_code);
+    let remarks = options.metadata.remarks.iter();
+    own.other.extend(remarks.map(|remark| (Text::from(remark.name), AttributeValue::Text(Text::from(remark.text)))));
     let layer = Layer::new(size, own, encoding, AnyChannels::sort(list));
     let mut picture = Image::from_layer(layer);
     picture.attributes.time_code = time_code;

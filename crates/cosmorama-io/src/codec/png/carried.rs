@@ -3,7 +3,7 @@
 
 use std::io::{self, SeekFrom};
 
-use png::chunk::{ChunkType, eXIf};
+use png::chunk::{ChunkType, eXIf, tEXt};
 use png::{EncodingError, Writer};
 
 use super::reader::MARK;
@@ -87,8 +87,12 @@ pub(super) fn write(
     metadata: &Metadata,
     size: (usize, usize),
 ) -> Result<(), EncodingError> {
-    for TextChunk { kind, data } in &metadata.carried.texts {
+    let is_remark = |text: &TextChunk| metadata.remarks.iter().any(|remark| remark.name == text.keyword());
+    for TextChunk { kind, data } in metadata.carried.texts.iter().filter(|text| !is_remark(text)) {
         writer.write_chunk(ChunkType(*kind), data)?;
+    }
+    for remark in &metadata.remarks {
+        writer.write_chunk(tEXt, format!("{}\0{}", remark.name, remark.text).as_bytes())?;
     }
     let exif = metadata.carried.exif.as_ref().and_then(|exif| exif.block_to_write(size, metadata.is_srgb()));
     exif.map_or(Ok(()), |block| writer.write_chunk(eXIf, &block))

@@ -67,7 +67,10 @@ impl Codec for Hdr {
             return Err(IoError::write(path, "Radiance HDR holds RGB floats"));
         };
         let mut encode = || {
-            write!(output, "#?RADIANCE\nSOFTWARE=cosmorama\n{}FORMAT=32-bit_rle_rgbe\n\n", line_of(&options.metadata))?;
+            write!(output, "#?RADIANCE\nSOFTWARE=cosmorama\n")?;
+            let mut remarks = options.metadata.remarks.iter();
+            remarks.try_for_each(|remark| writeln!(output, "{}={}", remark.name, remark.text))?;
+            write!(output, "{}FORMAT=32-bit_rle_rgbe\n\n", line_of(&options.metadata))?;
             writeln!(output, "-Y {} +X {}", image.height(), image.width())?;
             let (mut line, mut bytes) = (Vec::with_capacity(image.width()), Vec::new());
             for row in samples.chunks_exact((image.width() * 3).max(1)) {

@@ -186,6 +186,9 @@ fn faces_to_write(path: &Path, format: Format, image: &EncodedImage, metadata: &
         (Channels::Rgba, Samples::Half(samples)) => {
             Ok(samples.iter().flat_map(|sample: &f16| sample.to_le_bytes()).collect())
         }
+        (Channels::Rgba, Samples::Float(samples)) => {
+            Ok(samples.iter().flat_map(|sample| sample.to_le_bytes()).collect())
+        }
         _ => Err(cannot(format!("{} of depth {}", image.channels(), image.depth()))),
     }
 }

@@ -44,7 +44,7 @@ impl Codec for Dds {
     }
 
     /// Writes six faces with their mip levels: RGBA of 8 bits under the old header, which every program reads but which
-    /// does not record the transfer function, or premultiplied halves under the header of Direct3D 10.
+    /// does not record the transfer function, or premultiplied halves or floats under the header of Direct3D 10.
     fn encode_levels(
         &self,
         path: &Path,
@@ -53,8 +53,8 @@ impl Codec for Dds {
         options: &WriteOptions,
     ) -> Result<(), IoError> {
         let (faces, edge) = levels_to_write(path, FORMAT, levels, &options.metadata)?;
-        let float = levels.iter().any(|level| level.depth().is_float());
-        let start = start(edge, float, faces.len() as u32).map_err(|error| IoError::write(path, error))?;
+        let depth = levels.first().map_or(Depth::Eight, EncodedImage::depth);
+        let start = start(edge, depth, faces.len() as u32).map_err(|error| IoError::write(path, error))?;
         // Each face is followed by its own smaller copies.
         let face = |face: usize| {
             let part = move |level: &Vec<u8>| level.len() / 6 * face..level.len() / 6 * (face + 1);
@@ -179,20 +179,23 @@ fn modern_texels(format: DxgiFormat) -> (Option<Texels>, bool) {
 }
 
 /// Returns the header.
-fn start(edge: u32, float: bool, levels: u32) -> Result<Vec<u8>, ddsfile::Error> {
+fn start(edge: u32, depth: Depth, levels: u32) -> Result<Vec<u8>, ddsfile::Error> {
     let caps2 = Some(Caps2::CUBEMAP | Caps2::CUBEMAP_ALLFACES);
-    let half = DxgiFormat::R16G16B16A16_Float;
+    let float = match depth {
+        Depth::Half => Some(DxgiFormat::R16G16B16A16_Float),
+        Depth::Float => Some(DxgiFormat::R32G32B32A32_Float),
+        _ => None,
+    };
     let levels = (levels > 1).then_some(levels);
-    let mut header = if float {
-        DdsHeader::new_dxgi(edge, edge, None, half, levels, None, caps2)?
-    } else {
-        DdsHeader::new_d3d(edge, edge, None, D3DFormat::A8B8G8R8, levels, caps2)?
+    let mut header = match float {
+        Some(float) => DdsHeader::new_dxgi(edge, edge, None, float, levels, None, caps2)?,
+        None => DdsHeader::new_d3d(edge, edge, None, D3DFormat::A8B8G8R8, levels, caps2)?,
     };
     header.caps |= Caps::COMPLEX;
     let mut start = MAGIC.to_vec();
     header.write(&mut start)?;
-    if float {
-        Header10::new(half, true, D3D10ResourceDimension::Texture2D, 1, DdsAlpha::PreMultiplied).write(&mut start)?;
+    if let Some(float) = float {
+        Header10::new(float, true, D3D10ResourceDimension::Texture2D, 1, DdsAlpha::PreMultiplied).write(&mut start)?;
     }
     Ok(start)
 }

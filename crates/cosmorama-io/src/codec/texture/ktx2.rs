@@ -54,7 +54,7 @@ impl Codec for Ktx2 {
     }
 
     /// Writes six faces with their mip levels: RGBA of 8 bits, sRGB unless the light is linear, or premultiplied
-    /// halves.
+    /// halves or floats.
     fn encode_levels(
         &self,
         path: &Path,
@@ -63,7 +63,7 @@ impl Codec for Ktx2 {
         options: &WriteOptions,
     ) -> Result<(), IoError> {
         let (levels_of_faces, edge) = levels_to_write(path, FORMAT, levels, &options.metadata)?;
-        let depth = if levels.iter().any(|level| level.depth().is_float()) { Depth::Half } else { Depth::Eight };
+        let depth = levels.first().map_or(Depth::Eight, EncodedImage::depth);
         let file = Written { width: edge, height: edge, faces: 6, depth, levels: levels_of_faces };
         file.write(path, output, &options.metadata)
     }
@@ -118,7 +118,11 @@ impl Written {
             (_, Some(transfer)) => (Vk::R8G8B8A8_UNORM, 1, khronos::transfer_code(transfer)),
         };
         let described = describe(type_size as u8, transfer, khronos::primaries_code(metadata.primaries.as_ref()));
-        let words = key_values(&[("KTXorientation", "rd"), ("KTXwriter", "cosmorama")]);
+        // Keys are in order.
+        let mut pairs = vec![("KTXorientation", "rd"), ("KTXwriter", "cosmorama")];
+        pairs.extend(metadata.remarks.iter().map(|remark| (remark.name, remark.text)));
+        pairs.sort_unstable();
+        let words = key_values(&pairs);
         let dfd = (Ktx2Header::LENGTH + LevelIndex::LENGTH * levels.len()) as u32;
         let kvd = dfd + described.len() as u32;
         // A level begins at a multiple of a texel.

@@ -116,6 +116,14 @@ pub(super) fn write_tags<W: Write + Seek>(
     let own = fields.iter().filter(|field| field.tag.0 == Context::Tiff);
     own.into_iter().try_for_each(|field| write_field(tags, field))?;
     places.0.iter().try_for_each(|(pointer, place)| tags.write_tag(*pointer, *place))?;
+    // The input's own description stays.
+    let has_description =
+        fields.iter().any(|field| (field.tag.0, field.tag.1) == (Context::Tiff, Tag::ImageDescription.to_u16()));
+    let remarks: Vec<String> =
+        metadata.remarks.iter().map(|remark| format!("{}: {}", remark.name, remark.text)).collect();
+    if !has_description && !remarks.is_empty() {
+        tags.write_tag(Tag::ImageDescription, remarks.join("; ").as_str())?;
+    }
     let packet = metadata.packet_to_write(size);
     packet.map_or(Ok(()), |packet| tags.write_tag(XMP, packet.as_bytes()))
 }
