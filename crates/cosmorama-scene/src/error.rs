@@ -26,6 +26,9 @@ pub enum SceneError {
     /// The light is not that of the world.
     #[error(transparent)]
     Light(#[from] LightError),
+    /// A table of chrome without colours, or out of order.
+    #[error("a table of chrome needs colours at elevations that rise from −90° to 90°")]
+    Stops,
     /// A row of spheres without spheres, or with too many.
     #[error("a row of {count} spheres: expected 1 to {most}")]
     Count {

@@ -38,5 +38,5 @@ pub use error::SceneError;
 pub use material::{Glass, Material, MaterialError, Refraction};
 pub use picture::{Background, picture};
 pub use scene::{Object, Scene};
-pub use shade::{LightMaps, Sky, Surroundings};
+pub use shade::{Chrome, Highlight, LightMaps, Sky, Surroundings};
 pub use shape::Sphere;

@@ -11,6 +11,8 @@ pub struct Material {
     pub specular: f64,
     /// GGX roughness α of the reflection; 0 is a mirror.
     pub alpha: f64,
+    /// Whether it reflects a table of colours by elevation, and not the world (Greene 1986, section 8).
+    pub chrome: bool,
     /// Glass, which shows the world behind it, too: S is then what it reflects and refracts.
     pub glass: Option<Glass>,
 }
@@ -84,13 +86,16 @@ pub enum MaterialError {
 
 impl Material {
     /// A Lambertian reflector.
-    pub const MATTE: Self = Self { diffuse: 1.0, specular: 0.0, alpha: 0.0, glass: None };
+    pub const MATTE: Self = Self { diffuse: 1.0, specular: 0.0, alpha: 0.0, chrome: false, glass: None };
 
     /// A perfect mirror.
-    pub const MIRROR: Self = Self { diffuse: 0.0, specular: 1.0, alpha: 0.0, glass: None };
+    pub const MIRROR: Self = Self { diffuse: 0.0, specular: 1.0, alpha: 0.0, chrome: false, glass: None };
 
     /// Half a Lambertian reflector, half a mirror: the middle sphere of Greene's Plate 4.
-    pub const MIXED: Self = Self { diffuse: 0.5, specular: 0.5, alpha: 0.0, glass: None };
+    pub const MIXED: Self = Self { diffuse: 0.5, specular: 0.5, alpha: 0.0, chrome: false, glass: None };
+
+    /// Cheap chrome.
+    pub const CHROME: Self = Self { chrome: true, ..Self::MIRROR };
 
     /// Clear glass of index 1.5.
     pub const GLASS: Self = Self { glass: Some(Glass::new(1.5)), ..Self::MIRROR };

@@ -84,12 +84,19 @@ impl Scene {
         const MARGIN: f64 = 1.05;
         let (width, height) = (view.width() as f64, view.height() as f64);
         let at = |x: f64, y: f64| view.direction(PixelPoint::new(x * width, y * height));
-        // Half of the lesser field of view; of wide ones, an eighth of a turn.
-        let half = [((0.5, 0.5), (0.0, 0.5)), ((0.5, 0.5), (0.5, 0.0))].into_iter().fold(FRAC_PI_4, |half, (a, b)| {
-            let angle = at(a.0, a.1).zip(at(b.0, b.1)).map(|(a, b)| a.angle_to(b).radians());
-            half.min(angle.unwrap_or(half))
-        });
-        Place { eye: DVec3::Z * (MARGIN * self.radius() / half.sin()), target: DVec3::ZERO }
+        // Half of the field of view, across and down; of wide ones, an eighth of a turn.
+        let half = |x: f64, y: f64| {
+            let angle = at(0.5, 0.5).zip(at(x, y)).map(|(a, b)| a.angle_to(b).radians());
+            angle.unwrap_or(FRAC_PI_4).min(FRAC_PI_4)
+        };
+        let (across, down) = (half(0.0, 0.5), half(0.5, 0.0));
+        // A ball that touches a side of the field of view from within.
+        let away = |aside: f64, radius: f64, half: f64| (aside.abs() * half.cos() + radius) / half.sin();
+        let distance = |Object { sphere: Sphere { centre, radius }, .. }: &Object| {
+            away(centre.x, *radius, across).max(away(centre.y, *radius, down)) + centre.z
+        };
+        let distance = self.objects.iter().map(distance).fold(0.0, f64::max);
+        Place { eye: DVec3::Z * (MARGIN * distance), target: DVec3::ZERO }
     }
 
     /// Returns the place on the z axis, and the height of the picture, by which a camera of parallel rays sees
@@ -99,7 +106,11 @@ impl Scene {
         const MARGIN: f64 = 1.1;
         const AWAY: f64 = 4.0;
         let aspect = pixels[0] as f64 / pixels[1].max(1) as f64;
+        let half = |Object { sphere: Sphere { centre, radius }, .. }: &Object| {
+            (centre.y.abs() + radius).max((centre.x.abs() + radius) / aspect)
+        };
+        let half = self.objects.iter().map(half).fold(0.0, f64::max);
         let place = Place { eye: DVec3::Z * (AWAY * self.radius()), target: DVec3::ZERO };
-        (place, 2.0 * MARGIN * self.radius() / aspect.min(1.0))
+        (place, 2.0 * MARGIN * half)
     }
 }

@@ -52,10 +52,10 @@ struct Thrower<'a> {
 }
 
 impl Reflection {
-    /// Computes what a ball reflects; `None` for a large one, for one that is not seen, and for glass.
+    /// Computes what a ball reflects; `None` for a large one, for one that is not seen, for glass and for chrome.
     pub(super) fn of(object: &Object, camera: &Camera, surroundings: &Surroundings) -> Option<Self> {
         let (sphere, material) = (&object.sphere, &object.material);
-        if material.glass.is_some() || material.specular == 0.0 {
+        if material.glass.is_some() || material.chrome || material.specular == 0.0 {
             return None;
         }
         let radius = radius_in_pixels(sphere, camera).filter(|radius| *radius < SMALL)?;

@@ -1,12 +1,18 @@
-use cosmorama::camera::{CameraModel, EquirectCamera};
+use std::f64::consts::FRAC_PI_2;
+
+use cosmorama::camera::{CameraModel, EquirectCamera, FieldOfView, PerspectiveCamera, Placement};
+use cosmorama::filter::{FilterKind, FilterSettings, Kernel};
 use cosmorama::lighting::{LightTree, Lobe, LobeAverages, SMOOTHEST};
+use cosmorama::projection::ProjectionKind;
 use cosmorama::raster::{Image, Rgba};
-use cosmorama::world::{Light, World};
+use cosmorama::render::Resampler;
+use cosmorama::sphere::{Angle, CubeFace};
+use cosmorama::world::{Light, Source, World};
 
 use super::Sky;
 use crate::error::SceneError;
 use crate::material::Material;
-use crate::scene::Scene;
+use crate::scene::{Object, Scene};
 
 /// Small panoramas of a world's light, filtered beforehand: what falls on matt surfaces, and what rough ones reflect
 /// (Greene 1986, section 7).
@@ -14,6 +20,7 @@ use crate::scene::Scene;
 pub struct LightMaps {
     pub(super) diffuse: Option<LightMap>,
     pub(super) rough: Vec<(f64, LightMap)>,
+    pub(super) cube: Option<LightMap>,
 }
 
 /// A panorama of a world's light.
@@ -43,9 +50,14 @@ impl LightMaps {
         alphas.sort_by(f64::total_cmp);
         alphas.dedup();
         let is_matt = scene.objects.iter().any(|object| object.material.diffuse > 0.0);
+        light.check(world)?;
+        let mirrors = |object: &Object| {
+            let material = &object.material;
+            material.specular > 0.0 && !material.chrome && rough_alpha(material).is_none()
+        };
+        let cube = scene.objects.iter().any(mirrors).then(|| LightMap::cube(&sky)).flatten();
         if !is_matt && alphas.is_empty() {
-            light.check(world)?;
-            return Ok(Self { diffuse: None, rough: Vec::new() });
+            return Ok(Self { diffuse: None, rough: Vec::new(), cube });
         }
         let tree = LightTree::new(world, light)?;
         let rough = |alpha: f64| {
@@ -56,16 +68,42 @@ impl LightMaps {
         Ok(Self {
             diffuse: is_matt.then(|| LightMap::of(&tree, (&Lobe::LAMBERT, unseen), MATT)),
             rough: alphas.into_iter().map(rough).collect(),
+            cube,
         })
     }
 }
 
 /// Returns the roughness of a material whose reflection a map holds; `None` for mirrors and for what reflects nothing.
 pub(super) fn rough_alpha(material: &Material) -> Option<f64> {
-    (material.specular > 0.0 && material.alpha >= SMOOTHEST).then_some(material.alpha)
+    (material.specular > 0.0 && material.alpha >= SMOOTHEST && !material.chrome).then_some(material.alpha)
 }
 
+/// Greatest edge of the faces of a cube of a world's light.
+const EDGE: usize = 256;
+
 impl LightMap {
+    /// Returns a world's light on the faces of a cube, for what sees much of it at once: there an ellipse is an ellipse,
+    /// where in a panorama it is a region around a pole (Greene 1986, section 6). `None` if the world is of such faces,
+    /// or does not show all.
+    fn cube(sky: &Sky) -> Option<Self> {
+        let is_pinhole = |source: &Source| matches!(source.view.projection, ProjectionKind::Perspective(_));
+        if sky.unseen.is_some() || sky.world.sources().iter().all(is_pinhole) {
+            return None;
+        }
+        let edge = ((FRAC_PI_2 / sky.world.texel_pitch()).ceil() as usize).next_power_of_two().min(EDGE);
+        let filter = FilterSettings { kind: FilterKind::EwaPyramid, kernel: Kernel::LIGHT, anti_ringing: false };
+        let face = |face: CubeFace| {
+            let camera = CameraModel::from(PerspectiveCamera::new(FieldOfView::Horizontal(Angle::from_degrees(90.0))));
+            let placement = Placement { orientation: face.orientation(), ..Placement::new(camera) };
+            let view = placement.view(edge, edge).expect("a face of more than no pixels");
+            let resampler = Resampler { world: sky.world, target: &view, filter };
+            let picture = resampler.render(sky.light.texels());
+            (face.name().to_owned(), view, picture)
+        };
+        let (world, light) = World::from_pictures(CubeFace::ALL.map(face)).ok()?;
+        Some(Self { world, light })
+    }
+
     fn of(tree: &LightTree, (lobe, unseen): (&Lobe, Rgba), width: usize) -> Self {
         let view = CameraModel::Equirect(EquirectCamera::default()).view(width, width / 2);
         let view = view.expect("a panorama of more than no pixels");

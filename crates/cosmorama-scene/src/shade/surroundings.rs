@@ -3,7 +3,7 @@ use cosmorama::filter::{Bilinear, EwaPyramid, Filter, FilterKind, FilterSettings
 use cosmorama::raster::Rgba;
 
 use super::maps::rough_alpha;
-use super::{Beam, LightMaps, Sky};
+use super::{Beam, Chrome, LightMaps, Sky};
 use crate::camera::Normal;
 use crate::error::SceneError;
 use crate::material::Material;
@@ -13,17 +13,23 @@ pub struct Surroundings<'a> {
     mirror: Box<dyn Prepared + 'a>,
     /// Filter of parts of pixels, if it is another: what lies side by side adds to the whole.
     parts: Option<Box<dyn Prepared + 'a>>,
+    /// Filter of what sees much of the world.
+    wide: Option<Box<dyn Prepared + 'a>>,
     diffuse: Option<Box<dyn Prepared + 'a>>,
     rough: Vec<(f64, Box<dyn Prepared + 'a>)>,
     pub(crate) sky: Sky<'a>,
     pub(crate) filter: FilterSettings,
     /// Mean of the world's light, of all channels.
     pub(crate) mean: f64,
+    chrome: Chrome,
 }
 
 /// Kernel of parts of pixels: [`Kernel::LIGHT`], whose weights add to one over parts side by side. Where parts are less
 /// than a texel it interpolates, about as sharply as a tent.
 const SIDE_BY_SIDE: Kernel = Kernel { floor: 0.9, ..Kernel::LIGHT };
+
+/// Change of direction over a pixel, in radians, from which a footprint is looked up on a cube, five texels of it.
+const WIDE: f64 = 0.03;
 
 /// Extent of what is averaged at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,6 +49,9 @@ impl<'a> Surroundings<'a> {
         let smooth = EwaPyramid { kernel: Kernel::ADAPTIVE, anti_ringing: true };
         let rough = maps.rough.iter().map(|(alpha, map)| Ok((*alpha, smooth.prepare(&map.world, &map.light)?)));
         let diffuse = maps.diffuse.as_ref().map(|map| Bilinear.prepare(&map.world, &map.light)).transpose()?;
+        let wide = maps.cube.as_ref().filter(|_| filter.kind == FilterKind::EwaPyramid);
+        let side_by_side = EwaPyramid { kernel: SIDE_BY_SIDE, anti_ringing: false };
+        let wide = wide.map(|cube| side_by_side.prepare(&cube.world, &cube.light)).transpose()?;
         let parts = match filter.kind {
             FilterKind::Ewa | FilterKind::EwaPyramid => {
                 let settings = FilterSettings { kernel: SIDE_BY_SIDE, anti_ringing: false, ..filter };
@@ -54,17 +63,26 @@ impl<'a> Surroundings<'a> {
             parts,
             mean: sky.mean(),
             mirror: filter.prepare(sky.world, sky.light)?,
+            wide,
             diffuse,
             rough: rough.collect::<Result<_, SceneError>>()?,
             sky,
             filter,
+            chrome: Chrome::earth_and_sky(),
         })
+    }
+
+    /// Returns the surroundings with another table for what is of chrome; otherwise that is [`Chrome::earth_and_sky`].
+    #[must_use]
+    pub fn with_chrome(self, chrome: Chrome) -> Self {
+        Self { chrome, ..self }
     }
 
     /// Averages the world itself.
     pub(crate) fn world(&self, footprint: &Footprint, detail: Detail) -> Rgba {
-        let seen = match (&self.parts, detail) {
-            (Some(parts), Detail::Part) => parts.average(footprint),
+        let seen = match (&self.wide, &self.parts, detail) {
+            (Some(wide), ..) if widest(footprint) > WIDE => wide.average(footprint),
+            (_, Some(parts), Detail::Part) => parts.average(footprint),
             _ => self.mirror.average(footprint),
         };
         match self.sky.unseen {
@@ -98,8 +116,16 @@ impl<'a> Surroundings<'a> {
 
     /// Returns what a material reflects of a footprint.
     pub(crate) fn reflection(&self, material: &Material, footprint: &Footprint, detail: Detail) -> Rgba {
+        if material.chrome {
+            return self.chrome.average(footprint);
+        }
         let wanted = rough_alpha(material);
         let rough = self.rough.iter().find(|(alpha, _)| Some(*alpha) == wanted);
         rough.map_or_else(|| self.world(footprint, detail), |(_, map)| map.average(footprint))
     }
+}
+
+/// Returns the longest derivative of a footprint.
+fn widest(footprint: &Footprint) -> f64 {
+    footprint.jacobian.dx.length_squared().max(footprint.jacobian.dy.length_squared()).sqrt()
 }

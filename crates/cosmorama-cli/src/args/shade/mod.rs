@@ -12,14 +12,17 @@ use super::parse::listed;
 use super::parse::number::{distance, factor};
 use super::with_examples;
 
-pub(crate) use names::{BackgroundName, ByColour, CameraName, MaterialName, ObjectName, Point, RefractName};
+pub(crate) use names::{
+    BackgroundName, ByColour, CameraName, ChromeTable, HighlightName, MaterialName, ObjectName, Point, RefractName,
+};
 
 /// Example commands in its help.
-pub(super) const EXAMPLES: [&str; 5] = [
+pub(super) const EXAMPLES: [&str; 6] = [
     "cosmorama shade sky.hdr ball.png --object sphere",
     "cosmorama shade 'faces/{face}.png' plate4.png --object plate4 --size 1024x512",
     "cosmorama shade sky.hdr row.exr --object spheres:7 --size 1400x300",
     "cosmorama shade sky.hdr matt.png --material matte --background transparent",
+    "cosmorama shade none chrome.png --material chrome --highlight 30:50 --background black",
     "cosmorama shade sky.hdr dome.png --camera fulldome --eye 0,0,0 --target 0,0,-1",
 ];
 
@@ -31,7 +34,7 @@ pub(super) const EXAMPLES: [&str; 5] = [
 #[command(help_template = with_examples(&EXAMPLES))]
 #[command(after_help = "docs/objects.md has the conventions")]
 pub(crate) struct ShadeArgs {
-    /// The world: an image, a pattern or builtin:NAME; - is standard input
+    /// The world: an image, a pattern, builtin:NAME, or none for chrome; - is standard input
     #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
     pub(crate) world: String,
     /// An image, by its extension
@@ -42,7 +45,7 @@ pub(crate) struct ShadeArgs {
     /// Spheres have a radius of 1. spheres:N is a row from rough to smooth; plate4 is the paper's: matt, mixed, mirror.
     #[arg(long, value_name = "NAME", default_value = "sphere", value_parser = listed::object(), hide_possible_values = true, hide_default_value = true, help_heading = "Things")]
     pub(crate) object: ObjectName,
-    /// mirror (default), matte, mixed or glass
+    /// mirror (default), matte, mixed, glass or chrome
     #[arg(long, value_name = "NAME", default_value = "mirror", value_parser = listed::material(), hide_possible_values = true, hide_default_value = true, help_heading = "Things")]
     pub(crate) material: MaterialName,
     /// Part of the light that is scattered: dc [default: the material's]
@@ -79,6 +82,16 @@ pub(crate) struct ShadeArgs {
     /// Surfaces that light in glass is followed through, 2 to 64 [default: 4]
     #[arg(long, value_name = "N", allow_negative_numbers = true, hide_short_help = true, help_heading = "Things")]
     pub(crate) surfaces: Option<usize>,
+    /// Colours that chrome reflects, by elevation [default: earth to sky]
+    ///
+    /// As in '-90=#201008;0=white;90=#102040': colours at elevations in degrees, and straight between them. WORLD may then be none.
+    #[arg(long, value_name = "TABLE", allow_hyphen_values = true, hide_short_help = true, help_heading = "Things")]
+    pub(crate) chrome: Option<ChromeTable>,
+    /// Light that shines on chrome, YAW:PITCH[:POWER]; may be given again
+    ///
+    /// The power is the highlight's sharpness [default: 300].
+    #[arg(long, value_name = "LIGHT", allow_hyphen_values = true, hide_short_help = true, help_heading = "Things")]
+    pub(crate) highlight: Vec<HighlightName>,
     /// The world's projection [default: found]
     #[arg(long, value_name = "SPEC", value_parser = listed::spec(), hide_possible_values = true, help_heading = "World")]
     pub(crate) from: Option<Spec>,

@@ -2,7 +2,8 @@ use std::str::FromStr;
 
 use clap::ValueEnum;
 use cosmorama::raster::Rgba;
-use cosmorama_scene::Material;
+use cosmorama::sphere::{Angle, Direction, Orientation};
+use cosmorama_scene::{Highlight, Material};
 use cosmorama_spec::{Colour, Spec};
 
 /// Name of what stands under the world.
@@ -44,11 +45,12 @@ pub(crate) struct MaterialName(pub(crate) Material);
 
 impl MaterialName {
     /// Names for help and completions.
-    pub(crate) const NAMES: [(&'static str, &'static str); 4] = [
+    pub(crate) const NAMES: [(&'static str, &'static str); 5] = [
         ("mirror", "reflects all light: dc 0, sc 1"),
         ("matte", "scatters all light: dc 1, sc 0"),
         ("mixed", "half of both: dc 0.5, sc 0.5"),
         ("glass", "reflects and refracts; --ior is its index"),
+        ("chrome", "reflects a table of colours by elevation; --chrome is the table"),
     ];
 }
 
@@ -61,7 +63,8 @@ impl FromStr for MaterialName {
             "matte" | "matt" | "diffuse" => Ok(Self(Material::MATTE)),
             "mixed" => Ok(Self(Material::MIXED)),
             "glass" => Ok(Self(Material::GLASS)),
-            _ => Err("expected mirror, matte, mixed or glass; --dc, --sc and --alpha change each".to_owned()),
+            "chrome" => Ok(Self(Material::CHROME)),
+            _ => Err("expected mirror, matte, mixed, glass or chrome; --dc, --sc and --alpha change each".to_owned()),
         }
     }
 }
@@ -106,6 +109,59 @@ impl FromStr for ByColour {
             Some([red, green, blue]) => Ok(Self([*red, *green, *blue])),
             _ => Err("expected a number, or one for red, green and blue each, as in 1.51:1.52:1.53".to_owned()),
         }
+    }
+}
+
+/// A table of chrome: colours at elevations in degrees, `-90=#201008,0=white,90=#102040`.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct ChromeTable(pub(crate) Vec<(f64, [f64; 3])>);
+
+impl FromStr for ChromeTable {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let stop = |text: &str| {
+            let (elevation, colour) = text.split_once('=')?;
+            let elevation: f64 = elevation.trim().parse().ok()?;
+            let colour: Colour = colour.trim().parse().ok()?;
+            let [red, green, blue, _] = colour.0.0.map(f64::from);
+            Some((elevation.to_radians(), [red, green, blue]))
+        };
+        let stops = text.split(';').map(|text| stop(text).ok_or_else(|| text.to_owned()));
+        stops.collect::<Result<Vec<_>, String>>().map(Self).map_err(|wrong| {
+            format!(
+                "'{wrong}' is no colour at an elevation in degrees; expected as in '-90=#201008;0=white;90=#102040'"
+            )
+        })
+    }
+}
+
+/// A light that is a point, for chrome: `YAW:PITCH`, or `YAW:PITCH:POWER`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct HighlightName(pub(crate) Highlight);
+
+/// Power of a highlight's lobe, unless given, and the greatest.
+const POWER: f64 = 300.0;
+const SHARPEST: f64 = 1e9;
+
+impl FromStr for HighlightName {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers: Option<Vec<f64>> = text.split(':').map(|number| number.trim().parse().ok()).collect();
+        let (yaw, pitch, power) = match numbers.as_deref() {
+            Some([yaw, pitch]) => (*yaw, *pitch, POWER),
+            Some([yaw, pitch, power]) => (*yaw, *pitch, *power),
+            _ => return Err("expected YAW:PITCH in degrees, or YAW:PITCH:POWER, as in 30:50:300".to_owned()),
+        };
+        let is_angle = yaw.is_finite() && (-90.0..=90.0).contains(&pitch);
+        if !(is_angle && (1.0..=SHARPEST).contains(&power)) {
+            return Err("expected a pitch from -90 to 90 and a power from 1".to_owned());
+        }
+        let angles = [yaw, pitch].map(Angle::from_degrees);
+        let direction =
+            Orientation::from_yaw_pitch_roll(angles[0], angles[1], Angle::from_degrees(0.0)).to_world(Direction::FRONT);
+        Ok(Self(Highlight { direction, colour: [1.0; 3], power }))
     }
 }
 

@@ -13,7 +13,7 @@ use cosmorama::filter::FilterSettings;
 use cosmorama::raster::{Image, Rgba};
 use cosmorama_convert::{check_apart, refuse_existing, threads};
 use cosmorama_scene::{
-    Background, Glass, LightMaps, Material, Refraction, Scene, SceneError, Sky, Surroundings, picture,
+    Background, Chrome, Glass, LightMaps, Material, Refraction, Scene, SceneError, Sky, Surroundings, picture,
 };
 use cpu_time::ProcessTime;
 use serde_json::json;
@@ -32,6 +32,7 @@ pub(super) fn run(args: ShadeArgs, console: &mut Console) -> Result<ExitCode> {
     let path = Path::new(&args.output);
     let output = Output::check(&args)?;
     let scene = scene(&args)?;
+    let chrome = chrome(&args)?;
     let shots = shots(&args, &scene)?;
     let world = WorldInput::check(&args, console)?;
     check_apart(path, world.files())?;
@@ -48,7 +49,7 @@ pub(super) fn run(args: ShadeArgs, console: &mut Console) -> Result<ExitCode> {
     let lit = clock.lap();
     let filter =
         FilterSettings { kind: args.reflect.0, kernel: args.kernel.kernel, anti_ringing: args.kernel.anti_ringing };
-    let surroundings = pool.install(|| Surroundings::new(sky, &maps, filter)).map_err(wrong)?;
+    let surroundings = pool.install(|| Surroundings::new(sky, &maps, filter)).map_err(wrong)?.with_chrome(chrome);
     let background = match args.background {
         BackgroundName::World => Background::World,
         BackgroundName::Colour(colour) => Background::Colour(colour),
@@ -95,6 +96,7 @@ fn scene(args: &ShadeArgs) -> Result<Scene> {
         specular: args.sc.unwrap_or(asked.specular),
         alpha: args.alpha.unwrap_or(asked.alpha),
         glass: glass(args, asked.glass)?,
+        ..asked
     };
     let options = if material.glass.is_some() { "--ior, --absorption or --surfaces" } else { "--dc, --sc or --alpha" };
     material.check().map_err(|error| usage(format!("{error}; change {options}")))?;
@@ -107,6 +109,23 @@ fn scene(args: &ShadeArgs) -> Result<Scene> {
             Scene::spheres(count, material).map_err(|error| usage(format!("--object: {error}")))
         }
         ObjectName::Plate4 => Ok(Scene::plate4()),
+    }
+}
+
+/// Returns the table of chrome that was asked for; its options are for nothing else.
+fn chrome(args: &ShadeArgs) -> Result<Chrome> {
+    if !args.material.0.chrome {
+        let message = "--chrome and --highlight are for chrome; add --material chrome";
+        let is_given = args.chrome.is_some() || !args.highlight.is_empty();
+        return if is_given { Err(usage(message)) } else { Ok(Chrome::earth_and_sky()) };
+    }
+    if args.alpha.is_some() || matches!(args.object, ObjectName::Spheres(_) | ObjectName::Plate4) {
+        return Err(usage("chrome is one smooth sphere: leave out --alpha, spheres:N and plate4"));
+    }
+    let highlights = args.highlight.iter().map(|name| name.0).collect();
+    match &args.chrome {
+        Some(table) => Chrome::new(&table.0, highlights).map_err(|error| usage(format!("--chrome: {error}"))),
+        None => Ok(Chrome::earth_and_sky().with_highlights(highlights)),
     }
 }
 

@@ -3,13 +3,13 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use cosmorama::camera::{CameraModel, LayoutFaceCamera, Placement};
-use cosmorama::raster::Primaries;
+use cosmorama::raster::{Image, Primaries, Rgba};
 use cosmorama::sphere::CubeFace;
 use cosmorama::world::World;
 use cosmorama_builtin::BuiltinWorld;
 use cosmorama_convert::{Builtin, Conversion, GeometrySettings, Radiance, WorldLight};
 
-use crate::args::ShadeArgs;
+use crate::args::{BackgroundName, ObjectName, ShadeArgs};
 use crate::console::Console;
 use crate::failure::usage;
 use crate::pipe::KeptStreams;
@@ -18,7 +18,11 @@ use crate::pipe::KeptStreams;
 pub(super) enum WorldInput {
     Files { light: Box<WorldLight>, files: HashSet<PathBuf> },
     Formula(BuiltinWorld),
+    None,
 }
+
+/// Name of no world.
+const NONE: &str = "none";
 
 /// Edge of the faces by which a built-in world is held.
 const EDGE: usize = 1024;
@@ -26,6 +30,9 @@ const EDGE: usize = 1024;
 impl WorldInput {
     /// Finds the world's files and reads their headers.
     pub(super) fn check(args: &ShadeArgs, console: &mut Console) -> Result<Self> {
+        if args.world == NONE {
+            return without(args);
+        }
         match Builtin::named(&args.world)? {
             Some(Builtin::World(world)) if args.from.is_none() && args.frames.is_none() => Ok(Self::Formula(world)),
             Some(Builtin::World(_)) => {
@@ -58,10 +65,10 @@ impl WorldInput {
 
     /// Returns the files that are read, by their real paths.
     pub(super) fn files(&self) -> &HashSet<PathBuf> {
-        static NONE: std::sync::LazyLock<HashSet<PathBuf>> = std::sync::LazyLock::new(HashSet::new);
+        static NO_FILES: std::sync::LazyLock<HashSet<PathBuf>> = std::sync::LazyLock::new(HashSet::new);
         match self {
             Self::Files { files, .. } => files,
-            Self::Formula(_) => &NONE,
+            Self::Formula(_) | Self::None => &NO_FILES,
         }
     }
 
@@ -74,8 +81,29 @@ impl WorldInput {
                 Ok(radiance)
             }
             Self::Formula(world) => rendered(*world),
+            Self::None => darkness(),
         }
     }
+}
+
+/// Checks that nothing needs a world.
+fn without(args: &ShadeArgs) -> Result<WorldInput> {
+    if !args.material.0.chrome || args.dc.unwrap_or(0.0) > 0.0 || args.object == ObjectName::Plate4 {
+        return Err(usage("without a world there is only chrome: name a world, or give --material chrome and no --dc"));
+    }
+    if args.background == BackgroundName::World {
+        return Err(usage("without a world there is no background; add --background black or transparent"));
+    }
+    if args.from.is_some() || args.frames.is_some() {
+        return Err(usage("--from and --frames are for a world, and there is none; leave them out"));
+    }
+    Ok(WorldInput::None)
+}
+
+/// Returns a world without light.
+fn darkness() -> Result<Radiance> {
+    let (world, light) = World::from_panorama(Image::filled(4, 2, Rgba::BLACK))?;
+    Ok(Radiance { world, light, unseen: None, primaries: Primaries::REC709, diagnostics: Vec::new() })
 }
 
 /// Renders a built-in world onto the faces of a cube.

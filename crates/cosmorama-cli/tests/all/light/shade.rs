@@ -82,6 +82,38 @@ fn cameras_and_backgrounds_are_those_asked_for() {
 }
 
 #[test]
+fn chrome_needs_no_world() {
+    let bench = Bench::new();
+    let chrome =
+        ["shade", "none", "ball.exr", "--material", "chrome", "--background", "black", "--size", "64x64", "-y"];
+    let shade = |args: &[&str]| {
+        bench.succeed(&[&chrome[..], args].concat());
+        light(&bench, "ball.exr")
+    };
+    let made = shade(&[]);
+    // The sky is reflected above, the earth below, and a colour is even along the horizon.
+    let at = |i: usize, j: usize| made.get(i, j).0;
+    assert!(at(32, 20)[2] > at(32, 20)[0] && at(32, 44)[0] > at(32, 44)[2], "{:?} {:?}", at(32, 20), at(32, 44));
+    assert!((0..3).all(|k| (at(31, 20)[k] - at(32, 20)[k]).abs() < 1e-3));
+    // Of one colour there is no table.
+    let made = shade(&["--chrome", "0=0.25,0.5,1"]);
+    let middle = made.get(32, 32).0;
+    assert!((middle[0] - 0.25).abs() < 1e-3 && (middle[2] - 1.0).abs() < 1e-3, "{middle:?}");
+    let lit = shade(&["--chrome", "0=black", "--highlight", "180:0:100"]);
+    assert!(lit.get(32, 32).0[1] > 0.9 && lit.get(44, 32).0[1] < 0.1, "the light behind the eye shines in the middle");
+    for (args, says) in [
+        (&["shade", "none", "ball.exr"][..], &["--material chrome"][..]),
+        (&["shade", "none", "ball.exr", "--material", "chrome"], &["--background"]),
+        (&["shade", "none", "ball.exr", "--material", "chrome", "--chrome", "10=red;0=blue"], &["--chrome", "rise"]),
+        (&["shade", "none", "ball.exr", "--material", "chrome", "--chrome", "red"], &["--chrome", "'red'", "degrees"]),
+        (&["shade", "none", "ball.exr", "--material", "chrome", "--highlight", "9"], &["--highlight", "YAW:PITCH"]),
+        (&["shade", "builtin:demo", "ball.exr", "--highlight", "0:0"], &["--highlight", "--material chrome"]),
+    ] {
+        assert_says(&bench.fail(2, args), says);
+    }
+}
+
+#[test]
 fn what_cannot_be_is_refused() {
     let bench = Bench::new();
     bench.save("sky.exr", &crate::bench::floats(64, 32, |_, _| [0.25, 0.5, 1.0]));
