@@ -3,11 +3,10 @@ use std::f64::consts::FRAC_PI_2;
 use cosmorama::camera::{CameraModel, EquirectCamera, FieldOfView, PerspectiveCamera, Placement};
 use cosmorama::filter::{FilterKind, FilterSettings, Kernel};
 use cosmorama::lighting::{LightTree, Lobe, LobeAverages, SMOOTHEST};
-use cosmorama::projection::ProjectionKind;
 use cosmorama::raster::{Image, Rgba};
 use cosmorama::render::Resampler;
 use cosmorama::sphere::{Angle, CubeFace};
-use cosmorama::world::{Light, Source, World};
+use cosmorama::world::{Light, World};
 
 use super::Sky;
 use crate::error::SceneError;
@@ -86,8 +85,7 @@ impl LightMap {
     /// where in a panorama it is a region around a pole (Greene 1986, section 6). `None` if the world is of such faces,
     /// or does not show all.
     fn cube(sky: &Sky) -> Option<Self> {
-        let is_pinhole = |source: &Source| matches!(source.view.projection, ProjectionKind::Perspective(_));
-        if sky.unseen.is_some() || sky.world.sources().iter().all(is_pinhole) {
+        if sky.unseen.is_some() || sky.world.sources().iter().all(|source| source.view.is_pinhole()) {
             return None;
         }
         let edge = ((FRAC_PI_2 / sky.world.texel_pitch()).ceil() as usize).next_power_of_two().min(EDGE);

@@ -31,6 +31,11 @@ pub struct View {
 const BORDER_STEPS: usize = 20;
 
 impl View {
+    /// Returns whether straight lines stay straight, as in a pinhole camera's picture.
+    pub fn is_pinhole(&self) -> bool {
+        matches!(self.projection, ProjectionKind::Perspective(_))
+    }
+
     /// Returns the number of columns.
     pub fn width(&self) -> usize {
         self.grid.width()

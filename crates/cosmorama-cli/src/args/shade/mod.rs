@@ -22,7 +22,7 @@ pub(super) const EXAMPLES: [&str; 6] = [
     "cosmorama shade 'faces/{face}.png' plate4.png --object plate4 --size 1024x512",
     "cosmorama shade sky.hdr row.exr --object spheres:7 --size 1400x300",
     "cosmorama shade sky.hdr matt.png --material matte --background transparent",
-    "cosmorama shade none chrome.png --material chrome --highlight 30:50 --background black",
+    "cosmorama shade none chrome.png --material chrome --background black",
     "cosmorama shade sky.hdr dome.png --camera fulldome --eye 0,0,0 --target 0,0,-1",
 ];
 

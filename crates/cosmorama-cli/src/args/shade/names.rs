@@ -125,7 +125,7 @@ impl FromStr for ChromeTable {
             let elevation: f64 = elevation.trim().parse().ok()?;
             let colour: Colour = colour.trim().parse().ok()?;
             let [red, green, blue, _] = colour.0.0.map(f64::from);
-            Some((elevation.to_radians(), [red, green, blue]))
+            Some((Angle::from_degrees(elevation).radians(), [red, green, blue]))
         };
         let stops = text.split(';').map(|text| stop(text).ok_or_else(|| text.to_owned()));
         stops.collect::<Result<Vec<_>, String>>().map(Self).map_err(|wrong| {

@@ -100,7 +100,12 @@ fn chrome_needs_no_world() {
     let middle = made.get(32, 32).0;
     assert!((middle[0] - 0.25).abs() < 1e-3 && (middle[2] - 1.0).abs() < 1e-3, "{middle:?}");
     let lit = shade(&["--chrome", "0=black", "--highlight", "180:0:100"]);
-    assert!(lit.get(32, 32).0[1] > 0.9 && lit.get(44, 32).0[1] < 0.1, "the light behind the eye shines in the middle");
+    // The pixel beside the middle reflects 1.7° past the light, where the lobe is at 0.957; the pixel itself widens it by a tenth.
+    let (beside, far) = (lit.get(32, 32).0[1], lit.get(44, 32).0[1]);
+    assert!(
+        (0.86..0.957).contains(&beside) && far < 0.1,
+        "the light behind the eye shines in the middle: {beside}, {far}"
+    );
     for (args, says) in [
         (&["shade", "none", "ball.exr"][..], &["--material chrome"][..]),
         (&["shade", "none", "ball.exr", "--material", "chrome"], &["--background"]),

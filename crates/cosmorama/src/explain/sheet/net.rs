@@ -1,7 +1,6 @@
 use super::drawing::Rect;
 use super::theme::{HEADER, MARGIN};
 use crate::camera::PixelPoint;
-use crate::projection::ProjectionKind;
 use crate::sphere::{CubeFace, Direction};
 use crate::world::{Source, World};
 
@@ -77,8 +76,7 @@ fn aspect(source: &Source) -> f64 {
 /// Returns the face of each view; `None` if the views are not the faces of one cube.
 fn faces(world: &World) -> Option<Vec<CubeFace>> {
     let sources = world.sources();
-    let is_pinhole = |source: &Source| matches!(source.view.projection, ProjectionKind::Perspective(_));
-    if !sources.iter().all(is_pinhole) || sources.len() < 2 {
+    if !sources.iter().all(|source| source.view.is_pinhole()) || sources.len() < 2 {
         return None;
     }
     let distinct = |found: Vec<CubeFace>| {
