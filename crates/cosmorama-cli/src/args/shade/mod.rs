@@ -87,7 +87,7 @@ pub(crate) struct ShadeArgs {
     /// As in '-90=#201008;0=white;90=#102040': colours at elevations in degrees, and straight between them. WORLD may then be none.
     #[arg(long, value_name = "TABLE", allow_hyphen_values = true, hide_short_help = true, help_heading = "Things")]
     pub(crate) chrome: Option<ChromeTable>,
-    /// Light that shines on chrome, YAW:PITCH[:POWER]; may be given again
+    /// Light that shines on chrome, YAW:PITCH or YAW:PITCH:POWER; may be given again
     ///
     /// The power is the highlight's sharpness [default: 300].
     #[arg(long, value_name = "LIGHT", allow_hyphen_values = true, hide_short_help = true, help_heading = "Things")]
