@@ -17,7 +17,7 @@ const DIRECTIONS: usize = 20_000;
 /// use cosmorama::explain::PathReport;
 /// use cosmorama::prelude::*;
 ///
-/// let (world, _) = World::from_panorama(Image::filled(64, 32, Rgba::WHITE))?;
+/// let (world, _) = World::from_panorama(Image::filled(64, 32, Rgba::opaque(1.0, 1.0, 1.0)))?;
 /// let camera = PerspectiveCamera::new(FieldOfView::Vertical(Angle::from_degrees(45.0)));
 /// let view = CameraModel::from(camera).view(640, 480)?;
 /// let report = PathReport::of(&world, &[vec![view]]);

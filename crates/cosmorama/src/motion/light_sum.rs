@@ -8,7 +8,7 @@ use crate::raster::{Image, Rgba};
 /// use cosmorama::motion::LightSum;
 /// use cosmorama::raster::{Image, Rgba};
 ///
-/// let mut sum = LightSum::new(Image::filled(2, 1, Rgba::WHITE), 0.25);
+/// let mut sum = LightSum::new(Image::filled(2, 1, Rgba::opaque(1.0, 1.0, 1.0)), 0.25);
 /// sum.add(&Image::filled(2, 1, Rgba::BLACK), 0.75);
 /// assert_eq!(sum.into_image(), Image::filled(2, 1, Rgba::opaque(0.25, 0.25, 0.25)));
 /// ```
