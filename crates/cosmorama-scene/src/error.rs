@@ -1,3 +1,4 @@
+use cosmorama::lighting::LobeError;
 use cosmorama::world::LightError;
 use thiserror::Error;
 
@@ -26,9 +27,15 @@ pub enum SceneError {
     /// The light is not that of the world.
     #[error(transparent)]
     Light(#[from] LightError),
-    /// A table of chrome without colours, or out of order.
-    #[error("a table of chrome needs colours at elevations that rise from −90° to 90°")]
-    Stops,
+    /// A lobe is out of range.
+    #[error(transparent)]
+    Lobe(#[from] LobeError),
+    /// A table of chrome goes by azimuth.
+    #[error("chrome reflects colours by elevation, but the table is by azimuth")]
+    NotByElevation,
+    /// The maps of light are not those of the scene's materials.
+    #[error("the maps of light are of another scene: there is none for {0}")]
+    NoMap(&'static str),
     /// A row of spheres without spheres, or with too many.
     #[error("a row of {count} spheres: expected 1 to {most}")]
     Count {

@@ -2,8 +2,8 @@
 //! projections*, Graphics Interface '86).
 //!
 //! A pixel's beam is a [`Ray`] with its derivatives along the screen. Surfaces turn it with their curvature; what
-//! leaves them is a [`Footprint`](cosmorama::camera::Footprint), over which the library averages the world. No filter
-//! is of this crate's own.
+//! leaves them is a [`Footprint`](cosmorama::camera::Footprint), over which the library averages the world. What balls of
+//! few pixels reflect goes the other way: parts of the world are averaged, and added to the pixels that show them.
 //!
 //! ```
 //! use cosmorama::prelude::*;
@@ -18,9 +18,10 @@
 //! let sky = Sky::new(&world, &light);
 //! let maps = LightMaps::of(&scene, sky)?;
 //! let surroundings = Surroundings::new(sky, &maps, FilterSettings::DEFAULT)?;
-//! let image = picture(&scene, &camera, &surroundings, Background::World);
-//! // A mirror in a world of one colour cannot be seen.
-//! assert!(image.pixels().iter().all(|pixel| (pixel.0[1] - 0.25).abs() < 1e-5));
+//! let image = picture(&scene, &camera, &surroundings, Background::Colour(Rgba::TRANSPARENT))?;
+//! // A mirror has the colour of a world that has but one; beside it there is nothing.
+//! assert!((image.get(16, 16).0[1] - 0.25).abs() < 1e-5);
+//! assert_eq!(*image.get(0, 0), Rgba::TRANSPARENT);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 #![forbid(unsafe_code)]

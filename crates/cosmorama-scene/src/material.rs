@@ -57,7 +57,7 @@ impl Glass {
             return Err(MaterialError::Index(wrong));
         }
         if let Some(wrong) = self.absorption.into_iter().find(|part| !(part.is_finite() && *part >= 0.0)) {
-            return Err(MaterialError::Coefficient(wrong));
+            return Err(MaterialError::Absorption(wrong));
         }
         if (2..=Self::MOST_SURFACES).contains(&self.surfaces) {
             Ok(())
@@ -79,6 +79,9 @@ pub enum MaterialError {
     /// The index of refraction is out of range.
     #[error("an index of refraction of {0} is outside 0.25 to 4")]
     Index(f64),
+    /// The absorption is negative or not a number.
+    #[error("an absorption of {0} is not one: expected a number from 0")]
+    Absorption(f64),
     /// The number of surfaces is out of range.
     #[error("{0} surfaces of glass: expected 2 to {most}", most = Glass::MOST_SURFACES)]
     Surfaces(usize),

@@ -1,11 +1,12 @@
 use cosmorama::camera::PixelPoint;
 use cosmorama::raster::Rgba;
 
+use super::QUARTERS;
 use super::small::Reflection;
 use crate::camera::{Camera, Ray};
 use crate::scene::{Object, Scene};
 use crate::shade::{Beam, Detail, Surroundings};
-use crate::shape::Meeting;
+use crate::shape::{Meeting, Wall};
 
 /// Maker of single pixels.
 #[derive(Clone, Copy)]
@@ -86,7 +87,7 @@ impl<'a> Pixel<'a> {
 
     fn quarters(&self, cell: Cell) -> Rgba {
         let mut sum = Rgba::TRANSPARENT;
-        for (x, y) in [(-0.25, -0.25), (0.25, -0.25), (-0.25, 0.25), (0.25, 0.25)] {
+        for (x, y) in QUARTERS {
             let centre = PixelPoint::new(cell.centre.x + x * cell.side, cell.centre.y + y * cell.side);
             let part = self.cell(Cell { centre, side: 0.5 * cell.side, depth: cell.depth + 1, ..cell }) * 0.25;
             sum += part;
@@ -135,9 +136,7 @@ impl<'a> Pixel<'a> {
         let ray = self.camera.ray(PixelPoint::new(cell.centre.x + x, cell.centre.y + y));
         let Some(beam) = ray.map(|ray| ray.scaled(cell.side)) else { return Some(Rgba::TRANSPARENT) };
         let sphere = &part.object.sphere;
-        let Some(distance) = sphere.meet(&beam, 0.0) else { return Some(Rgba::TRANSPARENT) };
-        let met = beam.met(distance, sphere.normal_at(beam.at(distance)));
-        let normal = sphere.normal(&met);
+        let Some(Wall { met, normal, .. }) = sphere.wall(&beam, 0.0) else { return Some(Rgba::TRANSPARENT) };
         let material = &part.object.material;
         let whole = part.reflection.and_then(|reflection| reflection.light(cell.pixel));
         if let Some(reflected) = whole {

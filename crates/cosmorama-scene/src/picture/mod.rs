@@ -10,12 +10,16 @@ use cosmorama::render::Resampler;
 use rayon::prelude::*;
 
 use crate::camera::Camera;
+use crate::error::SceneError;
 use crate::scene::Scene;
 use crate::shade::{Detail, Surroundings};
 
 use cell::Pixel;
 use small::Reflection;
 use tiles::Tile;
+
+/// Middles of a square's quarters, in parts of its side.
+const QUARTERS: [(f64, f64); 4] = [(-0.25, -0.25), (0.25, -0.25), (-0.25, 0.25), (0.25, 0.25)];
 
 /// Light beside the things.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,8 +33,18 @@ pub enum Background {
 /// Makes the picture of a scene, in linear light premultiplied by alpha.
 ///
 /// Each pixel sees one cell, or several where an outline crosses it or where curvature shows it much of the world at
-/// once. Each cell is one average. What balls of few pixels reflect is the sum over parts of the world. The result does not depend on the number of threads.
-pub fn picture(scene: &Scene, camera: &Camera, surroundings: &Surroundings, background: Background) -> Image<Rgba> {
+/// once. Each cell is one average. What balls of few pixels reflect is the sum over parts of the world. The result does
+/// not depend on the number of threads.
+///
+/// # Errors
+/// When the surroundings have no maps of light for the scene's materials.
+pub fn picture(
+    scene: &Scene,
+    camera: &Camera,
+    surroundings: &Surroundings,
+    background: Background,
+) -> Result<Image<Rgba>, SceneError> {
+    surroundings.check(scene)?;
     let mut image = backdrop(camera, surroundings, background);
     let width = camera.width();
     let seen: Vec<Tile> = Tile::all(camera).filter(|tile| tile.shows(scene, camera)).collect();
@@ -46,7 +60,7 @@ pub fn picture(scene: &Scene, camera: &Camera, surroundings: &Surroundings, back
         let behind = &mut image.pixels_mut()[k];
         *behind = thing.over(*behind);
     }
-    image
+    Ok(image)
 }
 
 /// Makes the picture without things.

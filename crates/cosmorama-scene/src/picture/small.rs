@@ -9,10 +9,11 @@ use cosmorama::sphere::{CubeFace, Direction};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
+use super::QUARTERS;
 use crate::camera::{Camera, Ray};
 use crate::scene::Object;
 use crate::shade::{Detail, Surroundings};
-use crate::shape::Sphere;
+use crate::shape::{Sphere, Wall};
 
 /// Greatest radius, in pixels, of a ball that is treated so.
 const SMALL: f64 = 8.0;
@@ -88,7 +89,7 @@ impl Reflection {
     }
 
     /// Adds light to the pixels under a rectangle.
-    fn throw(&mut self, place: &Place, light: Rgba) {
+    fn throw(&mut self, place: &Shown, light: Rgba) {
         let [columns, rows] = [0, 1].map(|axis| shares(place.centre[axis], place.size[axis]));
         for (i, across) in &columns {
             for (j, down) in &rows {
@@ -121,7 +122,7 @@ fn radius_in_pixels(sphere: &Sphere, camera: &Camera) -> Option<f64> {
 
 /// Rectangle of the picture where a part of the world is seen.
 #[derive(Clone, Copy, Debug)]
-struct Place {
+struct Shown {
     centre: DVec2,
     size: DVec2,
     area: f64,
@@ -162,7 +163,7 @@ impl Thrower<'_> {
     }
 
     /// Returns where the ball shows a part of the world; `None` if it does not.
-    fn place(&self, seen: &Footprint) -> Option<Place> {
+    fn place(&self, seen: &Footprint) -> Option<Shown> {
         let sphere = &self.object.sphere;
         let normal = self.normal(seen.direction.vector())?;
         let point = sphere.centre + normal * sphere.radius;
@@ -173,16 +174,13 @@ impl Thrower<'_> {
         let (x, y) = (x?, y?);
         // The rectangle has the variances of the parallelogram.
         let size = DVec2::new(x.x.hypot(y.x), x.y.hypot(y.y));
-        Some(Place { centre: DVec2::new(pixel.x, pixel.y), size, area: x.perp_dot(y).abs() })
+        Some(Shown { centre: DVec2::new(pixel.x, pixel.y), size, area: x.perp_dot(y).abs() })
     }
 
     /// Returns the ray that the ball reflects at a point of the picture.
     fn reflected(&self, pixel: PixelPoint) -> Option<Ray> {
-        let sphere = &self.object.sphere;
-        let ray = self.camera.ray(pixel)?;
-        let distance = sphere.meet(&ray, 0.0)?;
-        let met = ray.met(distance, sphere.normal_at(ray.at(distance)));
-        Some(met.reflected(&sphere.normal(&met)))
+        let Wall { met, normal, .. } = self.object.sphere.wall(&self.camera.ray(pixel)?, 0.0)?;
+        Some(met.reflected(&normal))
     }
 
     /// Returns the normal where the ball reflects a direction; `None` where that is behind the outline.
@@ -209,7 +207,7 @@ impl Thrower<'_> {
 
 impl Patch {
     fn quarters(self) -> [Self; 4] {
-        [(-0.25, -0.25), (0.25, -0.25), (-0.25, 0.25), (0.25, 0.25)].map(|(x, y)| Self {
+        QUARTERS.map(|(x, y)| Self {
             at: self.at + DVec2::new(x, y) * self.side,
             side: 0.5 * self.side,
             depth: self.depth + 1,

@@ -61,3 +61,44 @@ fn may_meet(object: &Object, middle: &Ray, corners: &[Ray]) -> bool {
     // Seen from near by, a ball reaches √2 radii from its centre at the distance of that.
     sphere.centre.distance(middle.at(distance)) <= ROOM * (sphere.radius + spread)
 }
+
+#[cfg(test)]
+mod tests {
+    use cosmorama::camera::PixelPoint;
+    use cosmorama::prelude::*;
+    use glam::DVec3;
+
+    use super::*;
+    use crate::camera::{Orthographic, Place};
+    use crate::material::Material;
+
+    /// Cameras that see a row of balls from beside, from within reach, and all around.
+    fn cameras() -> Vec<Camera> {
+        let place = |eye: [f64; 3]| Place { eye: eye.into(), target: DVec3::new(0.3, 0.1, 0.0) };
+        let lens = |model: CameraModel, eye, (width, height)| {
+            Camera::lens(place(eye), Placement::new(model).view(width, height).unwrap()).unwrap()
+        };
+        let narrow = PerspectiveCamera::new(FieldOfView::Horizontal(Angle::from_degrees(50.0)));
+        vec![
+            lens(narrow.into(), [2.0, 1.0, 6.0], (100, 70)),
+            lens(EquirectCamera::default().into(), [0.0, 0.2, 1.9], (200, 100)),
+            Camera::Orthographic(Orthographic::new(place([3.0, 2.0, 9.0]), 4.0, [90, 60]).unwrap()),
+        ]
+    }
+
+    #[test]
+    fn tiles_that_are_passed_over_show_nothing() {
+        let scene = Scene::spheres(5, Material::MIRROR).unwrap();
+        for camera in cameras() {
+            let (passed, shown): (Vec<_>, Vec<_>) = Tile::all(&camera).partition(|tile| !tile.shows(&scene, &camera));
+            assert!(!passed.is_empty() && !shown.is_empty());
+            for (i, j) in passed.iter().flat_map(|tile| tile.pixels()) {
+                for (x, y) in (0..25).map(|k| (f64::from(k % 5) / 4.0, f64::from(k / 5) / 4.0)) {
+                    let Some(ray) = camera.ray(PixelPoint::new(i as f64 + x, j as f64 + y)) else { continue };
+                    let met = scene.objects.iter().any(|object| object.sphere.meet(&ray, 0.0).is_some());
+                    assert!(!met, "pixel {i}, {j}");
+                }
+            }
+        }
+    }
+}

@@ -24,7 +24,8 @@ const ECCENTRICITY: f64 = 8.0;
 const HEAVY: f64 = 0.25;
 
 impl Beam {
-    /// Lists the beams that a surface sends on: the mirrored one, or those of glass. Their weights add up to sc.
+    /// Lists the beams that a surface sends on: the mirrored one, or those of glass. Their weights add up to one for each
+    /// colour, less what glass absorbs.
     pub(crate) fn of(met: &Ray, normal: &Normal, material: &Material, solid: &dyn Solid) -> Vec<Self> {
         let mut beams = Vec::new();
         if material.specular > 0.0 {

@@ -1,8 +1,9 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use cosmorama::camera::Footprint;
+use cosmorama::lighting::{ColourTable, TableAngle};
 use cosmorama::raster::Rgba;
-use cosmorama::sphere::Direction;
+use cosmorama::sphere::{Angle, Direction, Orientation};
 use glam::DVec3;
 
 use crate::error::SceneError;
@@ -47,22 +48,19 @@ const ENTRIES: usize = 3 * STEPS + 1;
 const NARROWEST: f64 = 1e-4;
 
 impl Chrome {
-    /// Returns the chrome whose colours are interpolated between elevations, in radians, from the lowest to the highest.
+    /// Returns the chrome of a table by elevation, in the world's own frame.
     ///
     /// # Errors
-    /// When there are no colours, or elevations do not rise from −90° to 90°.
-    pub fn new(stops: &[(f64, [f64; 3])], highlights: Vec<Highlight>) -> Result<Self, SceneError> {
-        let within = stops.iter().all(|(elevation, colour)| {
-            (-FRAC_PI_2 - 1e-9..=FRAC_PI_2 + 1e-9).contains(elevation) && colour.iter().all(|part| part.is_finite())
-        });
-        if stops.is_empty() || !within || stops.windows(2).any(|pair| pair[0].0 >= pair[1].0) {
-            return Err(SceneError::Stops);
+    /// When the table goes by azimuth.
+    pub fn new(table: &ColourTable, highlights: Vec<Highlight>) -> Result<Self, SceneError> {
+        if table.angle() != TableAngle::Elevation {
+            return Err(SceneError::NotByElevation);
         }
         let mut entries = Vec::with_capacity(ENTRIES);
-        let mut entry = Entry { colour: colour_at(stops, FIRST), ..Entry::default() };
+        let mut entry = Entry { colour: colour_at(table, FIRST), ..Entry::default() };
         entries.push(entry);
         for k in 1..ENTRIES {
-            let colour = colour_at(stops, FIRST + STEP * k as f64);
+            let colour = colour_at(table, FIRST + STEP * k as f64);
             // Between entries colours are straight lines: their sums are polynomials.
             entry = Entry { colour, ..after(&entry, colour, 1.0) };
             entries.push(entry);
@@ -80,8 +78,9 @@ impl Chrome {
             (25.0, [0.22, 0.42, 0.75]),
             (90.0, [0.02, 0.06, 0.25]),
         ];
-        let stops = stops.map(|(degrees, colour): (f64, _)| (degrees.to_radians(), colour));
-        Self::new(&stops, Vec::new()).expect("rising elevations")
+        let stops = stops.map(|(degrees, colour)| (Angle::from_degrees(degrees), colour)).to_vec();
+        let table = ColourTable::new((TableAngle::Elevation, Orientation::IDENTITY), stops).expect("angles that grow");
+        Self::new(&table, Vec::new()).expect("a table by elevation")
     }
 
     /// Returns the chrome with lights.
@@ -128,16 +127,10 @@ fn after(entry: &Entry, colour: DVec3, part: f64) -> Entry {
     }
 }
 
-/// Interpolates between colours by elevation. Beyond the zenith and the nadir, elevations fall and rise again.
-fn colour_at(stops: &[(f64, [f64; 3])], elevation: f64) -> DVec3 {
-    let folded = elevation.sin().asin();
-    let next = stops.partition_point(|stop| stop.0 <= folded);
-    let colour = |k: usize| DVec3::from_array(stops[k].1);
-    if next == 0 || next == stops.len() {
-        return colour(next.saturating_sub(1));
-    }
-    let (from, to) = (stops[next - 1].0, stops[next].0);
-    colour(next - 1).lerp(colour(next), (folded - from) / (to - from))
+/// Looks up the colour at an elevation. Beyond the zenith and the nadir, elevations fall and rise again.
+fn colour_at(table: &ColourTable, elevation: f64) -> DVec3 {
+    let (sin, cos) = elevation.sin_cos();
+    DVec3::from_array(table.at(Direction::from_unit(DVec3::new(0.0, sin, -cos.abs()))))
 }
 
 impl Highlight {
@@ -156,12 +149,12 @@ mod tests {
     use super::*;
 
     /// Averages the table over many samples of a footprint's parallelogram.
-    fn brute(chrome: &[(f64, [f64; 3])], footprint: &Footprint) -> DVec3 {
+    fn brute(table: &ColourTable, footprint: &Footprint) -> DVec3 {
         const SIDE: usize = 200;
         let at = |k: usize| (k as f64 + 0.5) / SIDE as f64 - 0.5;
         let samples = (0..SIDE * SIDE).map(|k| {
             let seen = footprint.direction_at(at(k % SIDE), at(k / SIDE)).expect("less than half a turn");
-            colour_at(chrome, seen.vector().y.clamp(-1.0, 1.0).asin())
+            DVec3::from_array(table.at(seen))
         });
         samples.sum::<DVec3>() / (SIDE * SIDE) as f64
     }
@@ -172,6 +165,11 @@ mod tests {
         let up = direction.cross(right);
         let [dx, dy] = sides.map(|[across, along]| right * across + up * along);
         Footprint::new(Direction::from_unit(direction), dx, dy)
+    }
+
+    fn table(stops: &[(f64, [f64; 3])]) -> ColourTable {
+        let stops = stops.iter().map(|(elevation, colour)| (Angle::from_radians(*elevation), *colour)).collect();
+        ColourTable::new((TableAngle::Elevation, Orientation::IDENTITY), stops).unwrap()
     }
 
     const STRIPES: [(f64, [f64; 3]); 6] = [
@@ -185,14 +183,15 @@ mod tests {
 
     #[test]
     fn averages_are_those_of_many_samples() {
-        let chrome = Chrome::new(&STRIPES, Vec::new()).unwrap();
+        let stripes = table(&STRIPES);
+        let chrome = Chrome::new(&stripes, Vec::new()).unwrap();
         for k in 0..60 {
             let t = f64::from(k);
             // Away from zenith and nadir, where elevation has a tip.
             let size = [0.002, 0.02, 0.1, 0.25][k as usize % 4];
             let sides = [[size * (t * 0.7).cos(), size * (t * 0.7).sin()], [size * (t * 1.1).sin(), size * 0.6]];
             let footprint = footprint(t * 0.37, 0.9 * (t * 0.53).sin(), sides);
-            let (found, expected) = (chrome.average(&footprint).0, brute(&STRIPES, &footprint));
+            let (found, expected) = (chrome.average(&footprint).0, brute(&stripes, &footprint));
             let bound = 2e-3 + 0.25 * size * size;
             for channel in 0..3 {
                 let error = (f64::from(found[channel]) - expected[channel]).abs();
@@ -204,7 +203,7 @@ mod tests {
     #[test]
     fn what_is_straight_stays_and_zenith_and_nadir_turn_back() {
         let straight = [(-FRAC_PI_2, [0.0; 3]), (FRAC_PI_2, [PI; 3])];
-        let chrome = Chrome::new(&straight, Vec::new()).unwrap();
+        let chrome = Chrome::new(&table(&straight), Vec::new()).unwrap();
         let seen = |latitude: f64, size: f64| {
             f64::from(chrome.average(&footprint(0.3, latitude, [[size, 0.0], [0.0, size]])).0[0])
         };
@@ -230,9 +229,9 @@ mod tests {
     }
 
     #[test]
-    fn elevations_must_rise() {
-        for stops in [&[][..], &[(0.2, [0.0; 3]), (0.1, [1.0; 3])], &[(2.0, [1.0; 3])], &[(0.0, [f64::NAN; 3])]] {
-            assert_eq!(Chrome::new(stops, Vec::new()), Err(SceneError::Stops), "{stops:?}");
-        }
+    fn tables_by_azimuth_are_refused() {
+        let stops = vec![(Angle::ZERO, [0.5; 3])];
+        let by_azimuth = ColourTable::new((TableAngle::Azimuth, Orientation::IDENTITY), stops).unwrap();
+        assert_eq!(Chrome::new(&by_azimuth, Vec::new()), Err(SceneError::NotByElevation));
     }
 }

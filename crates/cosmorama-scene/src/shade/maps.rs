@@ -2,7 +2,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use cosmorama::camera::{CameraModel, EquirectCamera, FieldOfView, PerspectiveCamera, Placement};
 use cosmorama::filter::{FilterKind, FilterSettings, Kernel};
-use cosmorama::lighting::{LightTree, Lobe, LobeAverages, SMOOTHEST};
+use cosmorama::lighting::{Lobe, LobeAverages, PreparedLight, SMOOTHEST};
 use cosmorama::raster::{Image, Rgba};
 use cosmorama::render::Resampler;
 use cosmorama::sphere::{Angle, CubeFace};
@@ -58,15 +58,16 @@ impl LightMaps {
         if !is_matt && alphas.is_empty() {
             return Ok(Self { diffuse: None, rough: Vec::new(), cube });
         }
-        let tree = LightTree::new(world, light)?;
-        let rough = |alpha: f64| {
-            let lobe = Lobe::ggx(alpha).unwrap_or(Lobe::LAMBERT);
+        let lobes = alphas.iter().map(|alpha| Lobe::ggx(*alpha)).collect::<Result<Vec<_>, _>>()?;
+        let all: Vec<Lobe> = is_matt.then_some(Lobe::LAMBERT).into_iter().chain(lobes.iter().copied()).collect();
+        let prepared = PreparedLight::new(world, light, &all)?;
+        let rough = |(alpha, lobe): (f64, Lobe)| {
             let width = (ACROSS_ALPHA * std::f64::consts::TAU / alpha) as usize;
-            (alpha, LightMap::of(&tree, (&lobe, unseen), width.clamp(WIDTHS.0, WIDTHS.1)))
+            (alpha, LightMap::of(&prepared, (&lobe, unseen), width.clamp(WIDTHS.0, WIDTHS.1)))
         };
         Ok(Self {
-            diffuse: is_matt.then(|| LightMap::of(&tree, (&Lobe::LAMBERT, unseen), MATT)),
-            rough: alphas.into_iter().map(rough).collect(),
+            diffuse: is_matt.then(|| LightMap::of(&prepared, (&Lobe::LAMBERT, unseen), MATT)),
+            rough: alphas.into_iter().zip(lobes).map(rough).collect(),
             cube,
         })
     }
@@ -102,10 +103,10 @@ impl LightMap {
         Some(Self { world, light })
     }
 
-    fn of(tree: &LightTree, (lobe, unseen): (&Lobe, Rgba), width: usize) -> Self {
+    fn of(light: &PreparedLight, (lobe, unseen): (&Lobe, Rgba), width: usize) -> Self {
         let view = CameraModel::Equirect(EquirectCamera::default()).view(width, width / 2);
         let view = view.expect("a panorama of more than no pixels");
-        let picture: Image<Rgba> = tree.picture(&view, lobe, unseen);
+        let picture: Image<Rgba> = light.picture(&view, lobe, unseen);
         let world = World::new([("light".to_owned(), view)]).expect("one view");
         let light = Light::new(&world, picture.into_pixels()).expect("light of this view");
         Self { world, light }

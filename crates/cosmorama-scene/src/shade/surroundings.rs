@@ -7,6 +7,7 @@ use super::{Beam, Chrome, LightMaps, Sky};
 use crate::camera::Normal;
 use crate::error::SceneError;
 use crate::material::Material;
+use crate::scene::{Object, Scene};
 
 /// A world and its maps of light, ready to be asked by footprints from any number of threads.
 pub struct Surroundings<'a> {
@@ -76,6 +77,19 @@ impl<'a> Surroundings<'a> {
     #[must_use]
     pub fn with_chrome(self, chrome: Chrome) -> Self {
         Self { chrome, ..self }
+    }
+
+    /// Checks that there are maps for all that a scene's materials ask for.
+    pub(crate) fn check(&self, scene: &Scene) -> Result<(), SceneError> {
+        for Object { material, .. } in &scene.objects {
+            if material.diffuse > 0.0 && self.diffuse.is_none() {
+                return Err(SceneError::NoMap("matt things"));
+            }
+            if rough_alpha(material).is_some_and(|wanted| self.rough.iter().all(|(alpha, _)| *alpha != wanted)) {
+                return Err(SceneError::NoMap("a roughness"));
+            }
+        }
+        Ok(())
     }
 
     /// Averages the world itself.

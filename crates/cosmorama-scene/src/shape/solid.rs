@@ -6,13 +6,13 @@ pub(crate) trait Solid {
     fn next(&self, ray: &Ray) -> Option<Wall>;
 }
 
-/// The surface of a solid as a ray from inside meets it.
+/// The surface of a shape as a ray meets it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wall {
     /// The ray, with its changes, on the surface.
     pub(crate) met: Ray,
     /// Outward normal.
     pub(crate) normal: Normal,
-    /// Length of the way inside.
+    /// Length of the way to it, in units of the scene.
     pub(crate) distance: f64,
 }

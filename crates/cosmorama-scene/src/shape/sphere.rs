@@ -33,9 +33,7 @@ const AWAY: f64 = 1e-9;
 
 impl Solid for Sphere {
     fn next(&self, ray: &Ray) -> Option<Wall> {
-        let distance = self.meet(ray, AWAY * self.radius)?;
-        let met = ray.met(distance, self.normal_at(ray.at(distance)));
-        Some(Wall { met, normal: self.normal(&met), distance })
+        self.wall(ray, AWAY * self.radius)
     }
 }
 
@@ -57,6 +55,13 @@ impl Sphere {
         }
         let half = square.sqrt();
         [-along - half, -along + half].into_iter().find(|distance| *distance > beyond)
+    }
+
+    /// Returns the surface where a ray meets it, beyond a distance; `None` if it misses.
+    pub(crate) fn wall(&self, ray: &Ray, beyond: f64) -> Option<Wall> {
+        let distance = self.meet(ray, beyond)?;
+        let met = ray.met(distance, self.normal_at(ray.at(distance)));
+        Some(Wall { met, normal: self.normal(&met), distance })
     }
 
     /// Returns the outward unit normal at a point of the surface.
