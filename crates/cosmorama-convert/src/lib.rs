@@ -35,4 +35,4 @@ pub use settings::{
     LightNormalisation, LightSettings, LimitSettings, MotionBlur, NormalSpace, OcioSettings,
 };
 pub use source::{Disk, Files, InMemory, MemoryBudget, ViewFiles, existing_frames, peak_bytes, probe, read};
-pub use target::Picture;
+pub use target::{CHAIN_EDGE, Picture, is_cube_of_light};

@@ -16,7 +16,7 @@ use crate::input::spec_files::st_map::settled;
 use crate::input::{Builtin, Input, InputView};
 use crate::job::coverage::whole_worlds;
 use crate::job::files_read;
-use crate::job::gaps::{Shot, find_gaps_of_shots};
+use crate::job::gaps::{Shot, find_gaps};
 use crate::job::options::filter;
 use crate::settings::{CameraMovement, GeometrySettings, LimitSettings};
 use crate::source::{Access, ChosenFiles, DecodedPicture, Disk, Files, MemoryBudget};
@@ -245,7 +245,7 @@ impl Explanation {
         let (mut gaps, count) = (Vec::new(), worlds.len());
         for (index, (views, world)) in self.input.worlds.iter().zip(worlds).enumerate() {
             let (mut views, mut warnings) = (views.clone(), Vec::new());
-            let find = || find_gaps_of_shots(&mut views, (world, index, count), &shots, &self.filter, &mut warnings);
+            let find = || find_gaps(&mut views, (world, index, count), &shots, &self.filter, &mut warnings);
             match self.pool.install(find) {
                 Ok(found) => gaps.extend(found),
                 Err(error) => gaps.push(error.message().to_string()),

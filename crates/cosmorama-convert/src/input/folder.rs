@@ -69,7 +69,10 @@ pub fn face_set(pattern: &str, naming: Option<&'static Naming>) -> Result<FaceSe
                     folder.display(),
                     faces.display()
                 ),
-                (None, None, None) => failure!(NotFound: "{error}; {}", advice(folder)),
+                (None, None, None) => failure!(
+                    NotFound: "{error}; {}; faces by other names, such as numbers, are to be renamed or linked (docs/names.md)",
+                    advice(folder)
+                ),
             }
         }
         _ => error.into(),

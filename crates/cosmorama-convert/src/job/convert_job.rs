@@ -195,8 +195,10 @@ impl ConvertJob {
 
     /// Checks that the input covers the output, and that memory suffices.
     fn cover(&mut self, warnings: &mut Vec<Diagnostic>) -> Result<()> {
-        let shots = self.movement.as_ref().map(|movement| Shot::all(movement, &self.target.views, &self.input.frames));
-        let shots = shots.transpose()?;
+        let shots = match &self.movement {
+            Some(movement) => Shot::all(movement, &self.target.views, &self.input.frames)?,
+            None => vec![Shot { frames: Vec::new(), views: self.target.views.clone() }],
+        };
         let Self { input, target, filter, memory, .. } = self;
         let whole = whole_worlds(input, *memory)?;
         if let Some(lighting) = &self.lighting {
@@ -208,8 +210,7 @@ impl ConvertJob {
             (self.coverage, self.worlds) = (coverage, worlds);
             return Ok(());
         }
-        let (coverage, worlds) =
-            Coverage::check(input, whole, (target, shots.as_deref()), filter, self.missing, warnings)?;
+        let (coverage, worlds) = Coverage::check(input, whole, &shots, filter, self.missing, warnings)?;
         memory.check_frame(input, target)?;
         let levels = target.views.iter().map(|view| {
             let world = &worlds[view.world(worlds.len())];

@@ -4,11 +4,10 @@ use cosmorama::sphere::Direction;
 use cosmorama::world::{Source, World, WorldView};
 use cosmorama_spec::{Missing, Size};
 
-use super::gaps::{Shot, empty, find_gaps, find_gaps_of_shots};
+use super::gaps::{Shot, empty, find_gaps};
 use crate::diagnostic::{Code, Diagnostic, MISSING, Result, bail, failed_as};
 use crate::input::{Input, InputView};
 use crate::source::MemoryBudget;
-use crate::target::Target;
 
 /// Treatment of pixels that look where no view does.
 #[derive(Clone, Copy, Debug)]
@@ -41,11 +40,11 @@ fn check_sides(view: &InputView) -> Result<()> {
 
 impl Coverage {
     /// Compares what the target needs with what the input holds, before any pixel is computed. Also returns the worlds
-    /// that the files actually hold. A moving camera takes several shots.
+    /// that the files actually hold.
     pub(crate) fn check(
         input: &mut Input,
         nominal: Vec<World>,
-        (target, shots): (&Target, Option<&[Shot]>),
+        shots: &[Shot],
         filter: &FilterSettings,
         missing: Missing,
         warnings: &mut Vec<Diagnostic>,
@@ -53,10 +52,7 @@ impl Coverage {
         let mut gaps = Vec::new();
         let count = nominal.len();
         for (index, (views, nominal)) in input.worlds.iter_mut().zip(&nominal).enumerate() {
-            gaps.extend(match shots {
-                None => find_gaps(views, nominal, &target.of_world(index, count), filter, warnings)?,
-                Some(shots) => find_gaps_of_shots(views, (nominal, index, count), shots, filter, warnings)?,
-            });
+            gaps.extend(find_gaps(views, (nominal, index, count), shots, filter, warnings)?);
         }
         let coverage = match missing {
             _ if gaps.is_empty() => Self::Complete,

@@ -13,6 +13,7 @@ use crate::target::{Movement, TargetView, time};
 
 /// Views of the target that belong to some frames: in one pose, or in the poses of one exposure.
 pub(crate) struct Shot {
+    /// Frames; none of a camera that rests, whose shot is that of all.
     pub(crate) frames: Vec<u64>,
     pub(crate) views: Vec<TargetView>,
 }
@@ -38,39 +39,6 @@ impl Shot {
     }
 }
 
-/// Finds what is missing in the views of a world, and marks the views that are needed.
-pub(super) fn find_gaps(
-    views: &mut [InputView],
-    nominal: &World,
-    targets: &[&TargetView],
-    filter: &FilterSettings,
-    warnings: &mut Vec<Diagnostic>,
-) -> Result<Vec<String>> {
-    if is_whole_panorama(views) {
-        return Ok(Vec::new());
-    }
-    let geometry: Vec<View> = targets.iter().map(|target| target.view.clone()).collect();
-    let uncovered = |needs: &Needs| needs.uncovered.map(|gap| format!("{}: {gap}", targets[gap.target].name));
-    let needs = Needs::of(nominal, &geometry, filter, Accuracy::Bounds);
-    if needs.views.iter().any(|need| need.seen.is_some()) && views.iter().zip(&needs.views).all(holds) {
-        views.iter_mut().zip(&needs.views).for_each(|(view, need)| view.wanted = need.read.is_some());
-        return Ok(uncovered(&needs).into_iter().collect());
-    }
-    let needs = Needs::of(nominal, &geometry, filter, Accuracy::Exact);
-    let mut gaps = Vec::new();
-    for (view, need) in views.iter_mut().zip(&needs.views) {
-        view.wanted = need.read.is_some();
-        gaps.extend(shortfall(view, need));
-        warnings.extend(frayed(view, need));
-    }
-    gaps.extend(uncovered(&needs));
-    if !views.iter().any(|view| view.wanted && view.window.is_some()) {
-        gaps.push("nothing of what the input shows is in the output's field of view".to_owned());
-        return Err(empty(&gaps));
-    }
-    Ok(gaps)
-}
-
 /// Returns whether the input is a whole panorama, which lacks nothing, whatever the target needs; then it is wanted.
 fn is_whole_panorama(views: &mut [InputView]) -> bool {
     let [view] = views else { return false };
@@ -81,9 +49,9 @@ fn is_whole_panorama(views: &mut [InputView]) -> bool {
     is_whole
 }
 
-/// Finds what is missing in the views of a world over all frames of a moving camera, and marks the views that are needed. Gaps
+/// Finds what is missing in the views of a world over all shots, and marks the views that are needed. Gaps of a moving camera
 /// name their frames. The world is that of an index among so many.
-pub(crate) fn find_gaps_of_shots(
+pub(crate) fn find_gaps(
     views: &mut [InputView],
     (nominal, index, count): (&World, usize, usize),
     shots: &[Shot],
@@ -95,13 +63,17 @@ pub(crate) fn find_gaps_of_shots(
     }
     views.iter_mut().for_each(|view| view.wanted = false);
     let mut lacking: Vec<Lacking> = views.iter().map(|_| Lacking::default()).collect();
-    let mut uncovered: Option<(Vec<u64>, Uncovered)> = None;
+    let mut uncovered: Option<(String, Vec<u64>, Uncovered)> = None;
+    // Whether the files hold all that some shot may need.
+    let mut is_held = false;
     for Shot { frames, views: targets } in shots {
-        let targets = targets.iter().filter(|target| target.world(count) == index);
-        let geometry: Vec<View> = targets.map(|target| target.view.clone()).collect();
+        let targets: Vec<&TargetView> = targets.iter().filter(|target| target.world(count) == index).collect();
+        let geometry: Vec<View> = targets.iter().map(|target| target.view.clone()).collect();
         let mut needs = Needs::of(nominal, &geometry, filter, Accuracy::Bounds);
         let sees_any = needs.views.iter().any(|need| need.seen.is_some());
-        if !(sees_any && views.iter().zip(&needs.views).all(holds)) {
+        if sees_any && views.iter().zip(&needs.views).all(holds) {
+            is_held = true;
+        } else {
             needs = Needs::of(nominal, &geometry, filter, Accuracy::Exact);
         }
         for ((view, need), lacking) in views.iter_mut().zip(&needs.views).zip(&mut lacking) {
@@ -109,9 +81,10 @@ pub(crate) fn find_gaps_of_shots(
             lacking.add(view, need, frames);
         }
         if let Some(found) = needs.uncovered {
-            let (of, all) = uncovered.take().unwrap_or_else(|| (Vec::new(), found));
-            let all = if of.is_empty() { found } else { all.union(found) };
-            uncovered = Some((of.into_iter().chain(frames.iter().copied()).collect(), all));
+            uncovered = Some(match uncovered.take() {
+                None => (targets[found.target].name.clone(), frames.clone(), found),
+                Some((name, of, all)) => (name, [of, frames.clone()].concat(), all.union(found)),
+            });
         }
     }
     let mut gaps = Vec::new();
@@ -119,8 +92,8 @@ pub(crate) fn find_gaps_of_shots(
         gaps.extend(lacking.seen.as_ref().and_then(|need| Some(of_frames(&lacking.frames, &shortfall(view, need)?))));
         warnings.extend(lacking.frayed.as_ref().and_then(|need| frayed(view, need)));
     }
-    gaps.extend(uncovered.map(|(frames, gap)| of_frames(&frames, &gap.to_string())));
-    if !views.iter().any(|view| view.wanted && view.window.is_some()) {
+    gaps.extend(uncovered.map(|(name, frames, gap)| of_frames(&frames, &format!("{name}: {gap}"))));
+    if !is_held && !views.iter().any(|view| view.wanted && view.window.is_some()) {
         gaps.push("nothing of what the input shows is in the output's field of view".to_owned());
         return Err(empty(&gaps));
     }
@@ -156,8 +129,11 @@ fn both(known: Option<Need>, need: &Need) -> Need {
     }
 }
 
-/// Prepends the frames of a gap.
+/// Prepends the frames of a gap, if the camera moves.
 fn of_frames(frames: &[u64], gap: &str) -> String {
+    if frames.is_empty() {
+        return gap.to_owned();
+    }
     let plural = if frames.len() == 1 { "frame" } else { "frames" };
     format!("{plural} {}: {gap}", FrameList::new(frames.iter().copied()))
 }

@@ -63,6 +63,15 @@ impl MemoryBudget {
         self.allow(needed, "comparing", &format!("; {}, {}", size(pictures[0]), size(pictures[1])))
     }
 
+    /// Checks that the light of a picture of this size fits.
+    ///
+    /// # Errors
+    /// When it does not.
+    pub fn check_picture(self, size: (usize, usize)) -> Result<()> {
+        let needed = area(size).saturating_mul(size_of::<Rgba>() as u64);
+        self.allow(needed, "a picture", &format!("; it has {}x{} pixels", size.0, size.1))
+    }
+
     /// Returns the budget that is left when so many bytes are taken.
     pub(crate) fn beside(self, taken: u64) -> Self {
         Self { bytes: self.bytes.saturating_sub(taken), ..self }

@@ -11,18 +11,18 @@ use crate::settings::GeometrySettings;
 const WIDTH: usize = 64;
 const EDGE: usize = 32;
 
-/// Width and edge of the first level of a chain.
+/// Width of a panorama that is the first level of a chain.
 const CHAIN_WIDTH: usize = 512;
-const CHAIN_EDGE: usize = 256;
+
+/// Edge of the faces of the first level of a chain of light, unless given.
+pub const CHAIN_EDGE: usize = 256;
 
 /// Completes the geometry of a map of light: a panorama, or a cube where the output has a name for each face, unless another
 /// projection is given.
 pub(crate) fn of_light(geometry: GeometrySettings, output: &str, levels: usize) -> GeometrySettings {
-    let is_cube_file = Format::from_extension(Path::new(output)).is_ok_and(Format::is_cube_map);
-    let has_faces = is_cube_file || FacePattern::parse(output).is_some();
-    let usual = || if has_faces { "cube" } else { "equirect:samples=centres" }.parse::<Spec>().ok();
+    let is_cube = is_cube_of_light(geometry.to.as_ref(), output);
+    let usual = || if is_cube { "cube" } else { "equirect:samples=centres" }.parse::<Spec>().ok();
     let to = geometry.to.or_else(usual);
-    let is_cube = to.as_ref().is_some_and(|spec| matches!(spec.shape, Shape::Cube(_)));
     let width = match (is_cube, levels > 1) {
         (true, false) => EDGE,
         (false, false) => WIDTH,
@@ -31,4 +31,13 @@ pub(crate) fn of_light(geometry: GeometrySettings, output: &str, levels: usize) 
     };
     let size = geometry.size.or(Some(Size { width, height: None }));
     GeometrySettings { to, size, ..geometry }
+}
+
+/// Returns whether a map of light is a cube: as asked for, or else if the output has a name for each face or is a file of cubes.
+pub fn is_cube_of_light(to: Option<&Spec>, output: &str) -> bool {
+    let is_cube_file = || Format::from_extension(Path::new(output)).is_ok_and(Format::is_cube_map);
+    match to {
+        Some(spec) => matches!(spec.shape, Shape::Cube(_)),
+        None => is_cube_file() || FacePattern::parse(output).is_some(),
+    }
 }

@@ -10,6 +10,7 @@ pub(crate) mod sheets;
 
 pub(crate) use chain::name_of_level;
 pub(crate) use light::of_light;
+pub use light::{CHAIN_EDGE, is_cube_of_light};
 pub(crate) use movement::{Movement, time};
 pub use picture::Picture;
 pub(crate) use sheets::{Sheet, Target, TargetFile, TargetView};

@@ -179,11 +179,6 @@ impl Target {
     pub(crate) fn is_stereo(&self) -> bool {
         self.views.iter().any(|target| target.eye.is_some())
     }
-
-    /// Returns the images that show a world, among one or two.
-    pub(crate) fn of_world(&self, index: usize, count: usize) -> Vec<&TargetView> {
-        self.views.iter().filter(|target| target.world(count) == index).collect()
-    }
 }
 
 /// Refuses names that contain an invalid marker, which would become part of a file's name. Existing folders may have

@@ -1,11 +1,10 @@
 //! Stands in for OpenColorIO in programs built without it.
 
 use std::convert::Infallible;
-use std::sync::Arc;
 
 use cosmorama::raster::Rgba;
 
-use super::{Wanted, WantedOutput};
+use super::{Spaces, Wanted, WantedOutput};
 use crate::diagnostic::{Code, Diagnostic, OCIO, Result, usage_as};
 
 /// Conversion that does not exist.
@@ -17,15 +16,6 @@ impl SpaceConversion {
     pub(crate) fn convert(&self, _: &mut [Rgba]) {
         match self.0 {}
     }
-}
-
-/// Spaces of a config, which cannot be had.
-pub(super) struct Spaces {
-    pub(super) input: Arc<SpaceConversion>,
-    pub(super) output: Arc<SpaceConversion>,
-    pub(super) named_colours: Result<Arc<SpaceConversion>, String>,
-    pub(super) out_space: String,
-    pub(super) out_names: Vec<String>,
 }
 
 impl Spaces {

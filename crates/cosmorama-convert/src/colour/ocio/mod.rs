@@ -18,12 +18,8 @@ use cosmorama_io::{Format, Header, Metadata};
 
 #[cfg(not(feature = "ocio"))]
 pub(crate) use absent::SpaceConversion;
-#[cfg(not(feature = "ocio"))]
-use absent::Spaces;
 #[cfg(feature = "ocio")]
 pub(crate) use spaces::SpaceConversion;
-#[cfg(feature = "ocio")]
-use spaces::Spaces;
 
 use super::conversion::LightConversion;
 use crate::diagnostic::{
@@ -45,6 +41,17 @@ pub(crate) struct ColourConfig {
     out_space: String,
     /// Primaries and transfer function of the outputs' space, if it is a common one.
     tag: Option<(Primaries, Transfer)>,
+}
+
+/// Spaces that a job needs of a config.
+struct Spaces {
+    input: Arc<SpaceConversion>,
+    output: Arc<SpaceConversion>,
+    named_colours: Result<Arc<SpaceConversion>, String>,
+    /// Name of the outputs' space, for messages.
+    out_space: String,
+    /// Other names of the outputs' space.
+    out_names: Vec<String>,
 }
 
 /// Requests of a job to a config.

@@ -7,23 +7,12 @@ use ocio::builtins::configs::BuiltinConfigRegistry;
 use ocio::config::logging::LogGuard;
 use ocio::{Config, CpuProcessor, LoggingLevel, Processor};
 
-use super::{Wanted, WantedOutput, names};
+use super::{Spaces, Wanted, WantedOutput, names};
 use crate::diagnostic::{Code, Diagnostic, IN_SPACE, OCIO, OUT_SPACE, Result, failed_as, usage};
 
 /// Conversion from one space of a config to another.
 #[derive(Debug)]
 pub(crate) struct SpaceConversion(CpuProcessor);
-
-/// Spaces that a job needs of a config.
-pub(super) struct Spaces {
-    pub(super) input: Arc<SpaceConversion>,
-    pub(super) output: Arc<SpaceConversion>,
-    pub(super) named_colours: Result<Arc<SpaceConversion>, String>,
-    /// Name of the outputs' space, for messages.
-    pub(super) out_space: String,
-    /// Other names of the outputs' space.
-    pub(super) out_names: Vec<String>,
-}
 
 /// Role of the space in which light is filtered.
 const WORKING: &str = "scene_linear";
@@ -33,9 +22,6 @@ const LINEAR_REC709: &str = "lin_rec709";
 
 /// Number of pixels that are converted at once.
 const CHUNK: usize = 256;
-
-/// Largest half float, which stands for infinity in light.
-const LARGEST: f32 = 65504.0;
 
 impl SpaceConversion {
     /// Converts light in place. Colours are converted as they are without alpha, since curves hold for nothing else. Black that is
@@ -55,8 +41,7 @@ impl SpaceConversion {
                 }
                 let alpha = pixel.alpha();
                 let share = if has_shade(*pixel) { alpha } else { 1.0 };
-                let [red, green, blue] = [*red, *green, *blue].map(|sample| share * tame(sample));
-                *pixel = Rgba([red, green, blue, alpha]);
+                *pixel = Rgba([share * red, share * green, share * blue, alpha]).finite();
             }
         }
     }
@@ -69,17 +54,6 @@ fn has_shade(pixel: Rgba) -> bool {
 
 fn colour_of(Rgba([red, green, blue, _]): Rgba) -> [f32; 3] {
     [red, green, blue]
-}
-
-/// Returns a sample that can be weighed: 0 for NaN, the largest half for infinity, as in files.
-fn tame(sample: f32) -> f32 {
-    if sample.is_nan() {
-        0.0
-    } else if sample.is_infinite() {
-        LARGEST.copysign(sample)
-    } else {
-        sample
-    }
 }
 
 impl Spaces {
