@@ -211,6 +211,17 @@ pub(crate) struct LimitArgs {
     pub(crate) memory: Option<MemorySize>,
 }
 
+/// Treatment of an output that exists, and of a folder that does not.
+#[derive(Clone, Copy, Debug, Args)]
+pub(crate) struct OutputArgs {
+    /// Replace an existing output
+    #[arg(short = 'y', long)]
+    pub(crate) overwrite: bool,
+    /// Fail where the folder of the output does not exist
+    #[arg(long, hide_short_help = true)]
+    pub(crate) no_mkdir: bool,
+}
+
 /// Reads the kind of a depth.
 fn depth_kind() -> impl TypedValueParser<Value = DepthKind> {
     let kind = |word: String| if word == "planar" { DepthKind::Planar } else { DepthKind::Radial };

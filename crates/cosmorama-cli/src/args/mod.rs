@@ -17,7 +17,7 @@ use clap::{Arg, Command, CommandFactory, Parser, Subcommand};
 use cosmorama_spec::SpecKind;
 
 pub(crate) use compare::{CompareArgs, Region};
-pub(crate) use convert::{ConvertArgs, builtins};
+pub(crate) use convert::{ConvertArgs, OutputArgs, builtins};
 pub(crate) use demo::DemoArgs;
 pub(crate) use explain::ExplainArgs;
 pub(crate) use help::{CompletionsArgs, HelpArgs, LISTS, ManArgs, SPEC_TOPIC};

@@ -10,13 +10,17 @@ mod info;
 mod light;
 mod shade;
 
+use std::fmt::Display;
 use std::path::Path;
 use std::process::ExitCode;
 
 use anyhow::{Result, anyhow};
+use cosmorama::raster::Depth;
+use cosmorama_convert::refuse_existing;
 use cosmorama_io::pending::NewFolders;
+use cosmorama_spec::DepthName;
 
-use crate::args::Verb;
+use crate::args::{OutputArgs, Verb};
 use crate::console::Console;
 use crate::failure::usage;
 use crate::interrupt;
@@ -36,6 +40,26 @@ pub(crate) fn run(verb: Verb, console: &mut Console) -> Result<ExitCode> {
         Verb::Man(args) => help::man(&args, console),
         Verb::Help(args) => help::help(&args, console),
     }
+}
+
+/// Refuses to replace a file unasked, and makes its folder unless that is to exist. The folder is removed with the returned value
+/// if it stays empty.
+fn prepare_output(path: &Path, args: OutputArgs, console: &Console) -> Result<Option<NewFolders>> {
+    if !args.overwrite {
+        refuse_existing([path].into_iter())?;
+    }
+    let folder = path.parent().filter(|folder| !args.no_mkdir && !folder.as_os_str().is_empty());
+    folder.map(|folder| make_folder(folder, console)).transpose()
+}
+
+/// Refuses a sample type that an output, which is `what`, does not hold.
+fn check_depth(path: &Path, what: impl Display, depth: Depth, held: &[Depth]) -> Result<()> {
+    if held.contains(&depth) {
+        return Ok(());
+    }
+    let names: Vec<&str> = held.iter().map(|depth| DepthName(*depth).name()).collect();
+    let (path, depth) = (path.display(), DepthName(depth));
+    Err(usage(format!("{path}: {what} has no --depth {depth}; choose {}", names.join(", "))))
 }
 
 /// Makes a folder that does not exist yet, with those above it. Folders that stay empty are removed with the returned

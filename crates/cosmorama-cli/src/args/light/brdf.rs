@@ -4,7 +4,7 @@ use clap::{Args, ValueEnum, ValueHint};
 use cosmorama::lighting::{BrdfModel, LARGEST_BRDF_TABLE};
 use cosmorama_spec::DepthName;
 
-use crate::args::convert::threads;
+use crate::args::convert::{OutputArgs, threads};
 use crate::args::parse::listed;
 use crate::args::with_examples;
 
@@ -40,12 +40,8 @@ pub(crate) struct BrdfArgs {
     /// Sample type [default: float; half in .ktx2, 16 in .png]
     #[arg(long, value_parser = listed::depth(), value_name = "DEPTH", help_heading = "Table")]
     pub(crate) depth: Option<DepthName>,
-    /// Replace an existing output
-    #[arg(short = 'y', long, help_heading = "Files")]
-    pub(crate) overwrite: bool,
-    /// Fail where the folder of the output does not exist
-    #[arg(long, hide_short_help = true, help_heading = "Files")]
-    pub(crate) no_mkdir: bool,
+    #[command(flatten, next_help_heading = "Files")]
+    pub(crate) file: OutputArgs,
     /// Threads to work with [default: all cores]
     #[arg(long, value_name = "N", value_parser = threads, allow_hyphen_values = true, help_heading = "Run")]
     pub(crate) threads: Option<usize>,

@@ -4,12 +4,11 @@ use std::str::FromStr;
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueEnum, ValueHint};
 use cosmorama::lighting::{HIGHEST_ORDER, HarmonicBasis, HarmonicKind, HarmonicPreset, HarmonicWindow};
-use cosmorama_convert::{Conversion, GeometrySettings};
-use cosmorama_io::FrameList;
-use cosmorama_spec::{Missing, Spec, TransferName};
+use cosmorama_convert::Conversion;
+use cosmorama_spec::Missing;
 
-use crate::args::convert::{LimitArgs, frame_list};
-use crate::args::parse::listed;
+use super::world::WorldArgs;
+use crate::args::convert::OutputArgs;
 use crate::args::with_examples;
 
 /// Commands that the help of `light harmonics` shows.
@@ -34,9 +33,6 @@ pub(crate) struct HarmonicsArgs {
     /// A file: .json, .csv, or code: .glsl, .hlsl, .rs, .cpp, .hpp, .h
     #[arg(value_hint = ValueHint::FilePath)]
     pub(crate) output: PathBuf,
-    /// The input's projection [default: found]
-    #[arg(long, value_name = "SPEC", value_parser = listed::spec(), hide_possible_values = true, help_heading = "Geometry")]
-    pub(crate) from: Option<Spec>,
     /// Highest band, 0 to 10
     #[arg(long, value_name = "N", value_parser = order, allow_negative_numbers = true, default_value = "2", help_heading = "Light")]
     pub(crate) order: usize,
@@ -57,20 +53,10 @@ pub(crate) struct HarmonicsArgs {
     /// What no view covers: error (default) or a colour
     #[arg(long, value_name = "COLOR", default_value = "error", hide_default_value = true, help_heading = "Light")]
     pub(crate) missing: Missing,
-    /// How integer code values relate to light: auto (default), srgb, linear, …
-    #[arg(long, value_name = "T", default_value = "auto", value_parser = listed::transfer(), hide_possible_values = true, hide_default_value = true, help_heading = "Light")]
-    pub(crate) transfer: TransferName,
-    /// Which frame of several
-    #[arg(long, value_name = "N", value_parser = frame_list, allow_hyphen_values = true, help_heading = "Frames and files")]
-    pub(crate) frames: Option<FrameList>,
-    /// Replace an existing output
-    #[arg(short = 'y', long, help_heading = "Frames and files")]
-    pub(crate) overwrite: bool,
-    /// Fail where the folder of the output does not exist
-    #[arg(long, hide_short_help = true, help_heading = "Frames and files")]
-    pub(crate) no_mkdir: bool,
     #[command(flatten)]
-    pub(crate) limits: LimitArgs,
+    pub(crate) world: WorldArgs,
+    #[command(flatten, next_help_heading = "Frames and files")]
+    pub(crate) file: OutputArgs,
     /// Print a machine-readable report on standard output
     #[arg(long, help_heading = "Run")]
     pub(crate) json: bool,
@@ -192,14 +178,6 @@ fn order(text: &str) -> Result<usize, String> {
 
 impl From<HarmonicsArgs> for Conversion {
     fn from(args: HarmonicsArgs) -> Self {
-        Self {
-            input: args.input,
-            geometry: GeometrySettings { from: args.from, ..GeometrySettings::default() },
-            transfer: args.transfer,
-            missing: args.missing,
-            frames: args.frames,
-            limits: args.limits.into(),
-            ..Self::default()
-        }
+        args.world.conversion(args.input, args.missing)
     }
 }

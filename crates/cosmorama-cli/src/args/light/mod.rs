@@ -7,6 +7,7 @@ mod maps;
 mod roughness;
 mod sun;
 mod table;
+mod world;
 
 use clap::{Args, Subcommand};
 

@@ -4,11 +4,11 @@ use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueEnum, ValueHint};
 use cosmorama::lighting::{LARGEST_COLOUR_TABLE, TableAngle};
 use cosmorama::sphere::{Angle, Orientation};
-use cosmorama_convert::{Conversion, GeometrySettings};
-use cosmorama_io::FrameList;
-use cosmorama_spec::{DepthName, Missing, Spec, TransferName};
+use cosmorama_convert::Conversion;
+use cosmorama_spec::{DepthName, Missing};
 
-use crate::args::convert::{LimitArgs, frame_list};
+use super::world::WorldArgs;
+use crate::args::convert::OutputArgs;
 use crate::args::parse::listed;
 use crate::args::parse::number::degrees;
 use crate::args::with_examples;
@@ -34,9 +34,6 @@ pub(crate) struct TableArgs {
     /// A .csv file or a picture
     #[arg(value_hint = ValueHint::FilePath)]
     pub(crate) output: PathBuf,
-    /// The input's projection [default: found]
-    #[arg(long, value_name = "SPEC", value_parser = listed::spec(), hide_possible_values = true, help_heading = "Geometry")]
-    pub(crate) from: Option<Spec>,
     /// Colours of a table [default: 64], columns of a panorama [default: 512]
     #[arg(long, value_name = "N", value_parser = size, allow_negative_numbers = true, help_heading = "Geometry")]
     pub(crate) size: Option<usize>,
@@ -55,23 +52,13 @@ pub(crate) struct TableArgs {
     /// What no view covers: error (default) or a colour
     #[arg(long, value_name = "COLOR", default_value = "error", hide_default_value = true, help_heading = "Light")]
     pub(crate) missing: Missing,
-    /// How integer code values relate to light: auto (default), srgb, linear, …
-    #[arg(long, value_name = "T", default_value = "auto", value_parser = listed::transfer(), hide_possible_values = true, hide_default_value = true, help_heading = "Light")]
-    pub(crate) transfer: TransferName,
     /// Sample type of a picture [default: the deepest of the format]
     #[arg(long, value_parser = listed::depth(), value_name = "DEPTH", help_heading = "Light")]
     pub(crate) depth: Option<DepthName>,
-    /// Which frame of several
-    #[arg(long, value_name = "N", value_parser = frame_list, allow_hyphen_values = true, help_heading = "Frames and files")]
-    pub(crate) frames: Option<FrameList>,
-    /// Replace an existing output
-    #[arg(short = 'y', long, help_heading = "Frames and files")]
-    pub(crate) overwrite: bool,
-    /// Fail where the folder of the output does not exist
-    #[arg(long, hide_short_help = true, help_heading = "Frames and files")]
-    pub(crate) no_mkdir: bool,
     #[command(flatten)]
-    pub(crate) limits: LimitArgs,
+    pub(crate) world: WorldArgs,
+    #[command(flatten, next_help_heading = "Frames and files")]
+    pub(crate) file: OutputArgs,
     /// Print a machine-readable report on standard output
     #[arg(long, help_heading = "Run")]
     pub(crate) json: bool,
@@ -105,15 +92,7 @@ impl TableArgs {
 
 impl From<TableArgs> for Conversion {
     fn from(args: TableArgs) -> Self {
-        Self {
-            input: args.input,
-            geometry: GeometrySettings { from: args.from, ..GeometrySettings::default() },
-            transfer: args.transfer,
-            missing: args.missing,
-            frames: args.frames,
-            limits: args.limits.into(),
-            ..Self::default()
-        }
+        args.world.conversion(args.input, args.missing)
     }
 }
 

@@ -7,7 +7,7 @@ use clap::{Args, ValueHint};
 use cosmorama_io::FrameList;
 use cosmorama_spec::{DepthName, FilterName, KernelName, Missing, Size, Spec, TransferName};
 
-use super::convert::{LimitArgs, frame_list};
+use super::convert::{LimitArgs, OutputArgs, frame_list};
 use super::parse::listed;
 use super::parse::number::{distance, factor};
 use super::with_examples;
@@ -140,12 +140,8 @@ pub(crate) struct ShadeArgs {
     /// Output sample type [default: 8 bits, or half floats]
     #[arg(long, value_parser = listed::depth(), value_name = "DEPTH", hide_short_help = true, help_heading = "Picture")]
     pub(crate) depth: Option<DepthName>,
-    /// Replace an existing output
-    #[arg(short = 'y', long, help_heading = "Files")]
-    pub(crate) overwrite: bool,
-    /// Fail where the folder of the output does not exist
-    #[arg(long, hide_short_help = true, help_heading = "Files")]
-    pub(crate) no_mkdir: bool,
+    #[command(flatten, next_help_heading = "Files")]
+    pub(crate) file: OutputArgs,
     #[command(flatten)]
     pub(crate) limits: LimitArgs,
     /// Print a machine-readable report on standard output

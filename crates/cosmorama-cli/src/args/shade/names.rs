@@ -1,10 +1,11 @@
 use std::str::FromStr;
 
 use clap::ValueEnum;
+use cosmorama::lighting::{ColourTable, TableAngle};
 use cosmorama::raster::Rgba;
 use cosmorama::sphere::{Angle, Direction, Orientation};
 use cosmorama_scene::{Highlight, Material};
-use cosmorama_spec::{Colour, Spec};
+use cosmorama_spec::{Colour, Spec, colour_table_of_stops};
 
 /// Name of what stands under the world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -112,27 +113,15 @@ impl FromStr for ByColour {
     }
 }
 
-/// A table of chrome: colours at elevations in degrees, `-90=#201008,0=white,90=#102040`.
+/// A table of chrome: colours at elevations in degrees, `-90=#201008;0=white;90=#102040`.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct ChromeTable(pub(crate) Vec<(f64, [f64; 3])>);
+pub(crate) struct ChromeTable(pub(crate) ColourTable);
 
 impl FromStr for ChromeTable {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let stop = |text: &str| {
-            let (elevation, colour) = text.split_once('=')?;
-            let elevation: f64 = elevation.trim().parse().ok()?;
-            let colour: Colour = colour.trim().parse().ok()?;
-            let [red, green, blue, _] = colour.0.0.map(f64::from);
-            Some((Angle::from_degrees(elevation).radians(), [red, green, blue]))
-        };
-        let stops = text.split(';').map(|text| stop(text).ok_or_else(|| text.to_owned()));
-        stops.collect::<Result<Vec<_>, String>>().map(Self).map_err(|wrong| {
-            format!(
-                "'{wrong}' is no colour at an elevation in degrees; expected as in '-90=#201008;0=white;90=#102040'"
-            )
-        })
+        colour_table_of_stops(text, (TableAngle::Elevation, Orientation::IDENTITY)).map(Self)
     }
 }
 

@@ -4,7 +4,7 @@ use std::process::ExitCode;
 use anyhow::Result;
 use cosmorama::lighting::{BrdfChannels, BrdfModel};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
-use cosmorama_convert::{refuse_existing, threads};
+use cosmorama_convert::threads;
 use cosmorama_io::{Format, Metadata, WriteOptions, write_flat};
 use cosmorama_spec::DepthName;
 use serde_json::json;
@@ -12,18 +12,14 @@ use serde_json::json;
 use crate::args::BrdfArgs;
 use crate::console::{Console, say};
 use crate::failure::usage;
-use crate::verbs::make_folder;
+use crate::verbs::{check_depth, prepare_output};
 
 /// Makes a table of what surfaces reflect of a white world.
 pub(super) fn run(args: &BrdfArgs, console: &Console) -> Result<ExitCode> {
     let path = &args.output;
     let (depth, channels) = samples(path, args.depth.map(Depth::from))?;
     let kind = if args.multiscatter { BrdfChannels::Multiscatter } else { BrdfChannels::ScaleBias };
-    if !args.overwrite {
-        refuse_existing([path.as_path()].into_iter())?;
-    }
-    let folder = path.parent().filter(|folder| !args.no_mkdir && !folder.as_os_str().is_empty());
-    let _folders = folder.map(|folder| make_folder(folder, console)).transpose()?;
+    let _folders = prepare_output(path, args.file, console)?;
     let pool = threads(args.threads)?;
     let table = pool.install(|| BrdfModel::from(args.lobe).table(args.size, kind));
     let table = table.map_err(|error| usage(format!("--lobe {}, --multiscatter: {error}", args.lobe.name())))?;
@@ -61,15 +57,7 @@ fn samples(path: &Path, depth: Option<Depth>) -> Result<(Depth, Channels)> {
         }
     };
     let depth = depth.unwrap_or(usual);
-    if !held.contains(&depth) {
-        let held: Vec<_> = held.iter().map(|depth| DepthName(*depth).name()).collect();
-        return Err(usage(format!(
-            "{}: --depth {} is not what such a table is written in; choose {}",
-            path.display(),
-            DepthName(depth),
-            held.join(", ")
-        )));
-    }
+    check_depth(path, "such a table", depth, held)?;
     Ok((depth, channels))
 }
 

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use anyhow::{Context, Result};
 use cosmorama::lighting::{CodeLanguage, HarmonicKind, HarmonicPreset, LightFigures, SeriesAccuracy, StoredHarmonics};
-use cosmorama_convert::{Conversion, WorldHarmonics, WorldLight, check_apart, refuse_existing};
+use cosmorama_convert::{Conversion, WorldHarmonics, check_apart};
 use cosmorama_io::pending::Pending;
 use serde_json::{Value, json};
 
@@ -13,7 +13,7 @@ use crate::args::HarmonicsArgs;
 use crate::console::{Console, say};
 use crate::failure::usage;
 use crate::pipe::KeptStreams;
-use crate::verbs::make_folder;
+use crate::verbs::prepare_output;
 
 /// Sums the spherical harmonics of a world's light.
 pub(super) fn run(mut args: HarmonicsArgs, console: &mut Console) -> Result<ExitCode> {
@@ -26,9 +26,8 @@ pub(super) fn run(mut args: HarmonicsArgs, console: &mut Console) -> Result<Exit
     let checked = conversion.files(kept.files()).check_light();
     console.tell_all(&checked);
     let light = checked.result?;
-    check_output(&path, &light, args.overwrite)?;
-    let folder = path.parent().filter(|folder| !args.no_mkdir && !folder.as_os_str().is_empty());
-    let _folders = folder.map(|folder| make_folder(folder, console)).transpose()?;
+    check_apart(&path, light.files())?;
+    let _folders = prepare_output(&path, args.file, console)?;
     // Fails before the work, not after it, if the folder cannot be written to.
     let mut file = Pending::create(&path, &console.unfinished)?;
     let window = args.window.map(|window| window.window(args.order));
@@ -60,15 +59,6 @@ fn kind(args: &HarmonicsArgs) -> Result<HarmonicKind> {
         preset.check(kind, args.order).map_err(|error| usage(named(error)))?;
     }
     Ok(kind)
-}
-
-/// Refuses to replace an input, or any existing file unless `overwrite` is set.
-fn check_output(path: &Path, light: &WorldLight, overwrite: bool) -> Result<()> {
-    check_apart(path, light.files())?;
-    if !overwrite {
-        refuse_existing([path].into_iter())?;
-    }
-    Ok(())
 }
 
 /// Form of the output.

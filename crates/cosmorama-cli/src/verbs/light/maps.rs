@@ -2,8 +2,9 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use cosmorama::lighting::{ChainLevel, Lobe, RoughnessMap, SMOOTHEST};
-use cosmorama_convert::{Conversion, Every, LightLevel, LightNormalisation, LightSettings};
-use cosmorama_spec::Shape;
+use cosmorama_convert::{
+    CHAIN_EDGE, Conversion, Every, LightLevel, LightNormalisation, LightSettings, is_cube_of_light,
+};
 
 use crate::args::light::lobe::LobeName;
 use crate::args::{DiffuseArgs, MapArgs, Method, SpecularArgs, Unit};
@@ -79,21 +80,16 @@ fn chain(args: &SpecularArgs, levels: usize) -> Result<Vec<LightLevel>> {
         ));
     }
     let map = args.roughness_map.map_or(RoughnessMap::Squared, RoughnessMap::from);
-    let to_cube = args.map.to.as_ref().map(|spec| matches!(spec.shape, Shape::Cube(_)));
-    let named = || ["{face}", "%c", ".ktx2", ".dds"].iter().any(|mark| args.map.output.contains(mark));
-    if map.goes_by_faces() && !to_cube.unwrap_or_else(named) {
+    if map.goes_by_faces() && !is_cube_of_light(args.map.to.as_ref(), &args.map.output) {
         return Err(usage(
             "--roughness-map unreal and three go by the size of a cube's faces; name the output .ktx2 or .dds, or put {face} into it",
         ));
     }
-    let edge = args.map.size.map_or(DEFAULT_EDGE, |size| size.width);
+    let edge = args.map.size.map_or(CHAIN_EDGE, |size| size.width);
     let alpha = |level: usize| map.alpha(ChainLevel { level, levels, edge });
     // A roughness below that of any lobe makes a mirror.
     (0..levels).map(|at| level(args.lobe, if alpha(at) < SMOOTHEST { 0.0 } else { alpha(at) })).collect()
 }
-
-/// Edge of the first level's faces, unless given.
-const DEFAULT_EDGE: usize = 256;
 
 /// Returns the level of a roughness.
 fn level(lobe: LobeName, alpha: f64) -> Result<LightLevel> {

@@ -3,13 +3,13 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use cosmorama::lighting::Sun;
-use cosmorama_convert::{Conversion, WorldSuns, check_apart, refuse_existing};
+use cosmorama_convert::{Conversion, WorldSuns, check_apart};
 use serde_json::{Value, json};
 
 use crate::args::SunArgs;
 use crate::console::Console;
 use crate::pipe::KeptStreams;
-use crate::verbs::make_folder;
+use crate::verbs::prepare_output;
 
 /// Suns that are listed for people at most.
 const LISTED: usize = 12;
@@ -26,13 +26,8 @@ pub(super) fn run(mut args: SunArgs, console: &mut Console) -> Result<ExitCode> 
     if let Some(path) = &args.remove {
         light.check_picture(path)?;
         check_apart(path, light.files())?;
-        if !args.overwrite {
-            refuse_existing([path.as_path()].into_iter())?;
-        }
     }
-    let folder = args.remove.as_deref().and_then(|path| path.parent());
-    let folder = folder.filter(|folder| !args.no_mkdir && !folder.as_os_str().is_empty());
-    let _folders = folder.map(|folder| make_folder(folder, console)).transpose()?;
+    let _folders = args.remove.as_deref().map(|path| prepare_output(path, args.file, console)).transpose()?;
     let (found, diagnostics) = light.suns(args.remove.as_deref())?;
     diagnostics.iter().for_each(|diagnostic| console.warn(diagnostic));
     console.print(&if args.json { to_json(&args, &found)? } else { told(&found)? })?;

@@ -8,7 +8,7 @@ use cosmorama::lighting::ColourTable;
 use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
 use cosmorama::sphere::Direction;
 use cosmorama_builtin::picture;
-use cosmorama_convert::{Conversion, WorldLight, check_apart, refuse_existing, threads};
+use cosmorama_convert::{Conversion, WorldLight, check_apart, threads};
 use cosmorama_io::pending::Pending;
 use cosmorama_io::{Format, Metadata, WriteOptions, write};
 use cosmorama_spec::{DepthName, colour_table_csv, colour_table_of_csv, colour_table_of_stops};
@@ -18,7 +18,7 @@ use crate::args::TableArgs;
 use crate::console::{Console, say};
 use crate::failure::usage;
 use crate::pipe::KeptStreams;
-use crate::verbs::make_folder;
+use crate::verbs::{check_depth, prepare_output};
 
 /// Colours of a table and columns of a panorama, unless given.
 const COLOURS: usize = 64;
@@ -43,11 +43,7 @@ pub(super) fn run(mut args: TableArgs, console: &mut Console) -> Result<ExitCode
             Source::World(Box::new(light))
         }
     };
-    if !args.overwrite {
-        refuse_existing([args.output.as_path()].into_iter())?;
-    }
-    let folder = args.output.parent().filter(|folder| !args.no_mkdir && !folder.as_os_str().is_empty());
-    let _folders = folder.map(|folder| make_folder(folder, console)).transpose()?;
+    let _folders = prepare_output(&args.output, args.file, console)?;
     let is_world = matches!(source, Source::World(_));
     let table = source.table(&args, console)?;
     let overflowed = match form {
@@ -59,7 +55,7 @@ pub(super) fn run(mut args: TableArgs, console: &mut Console) -> Result<ExitCode
             0
         }
         Form::Picture(format) => {
-            let pool = threads(args.limits.threads)?;
+            let pool = threads(args.world.limits.threads)?;
             let image = if is_world { strip(&table) } else { pool.install(|| panorama(&table, args.size))? };
             write_picture(&args, format, &image, console)?
         }
@@ -133,16 +129,8 @@ impl Form {
                 path.display()
             )));
         };
-        if let Some(DepthName(depth)) = args.depth
-            && !format.depths().contains(&depth)
-        {
-            let held: Vec<_> = format.depths().iter().map(|depth| DepthName(*depth).name()).collect();
-            return Err(usage(format!(
-                "{}: {format} has no --depth {}; choose {}",
-                path.display(),
-                DepthName(depth),
-                held.join(", ")
-            )));
+        if let Some(DepthName(depth)) = args.depth {
+            check_depth(path, format, depth, format.depths())?;
         }
         Ok(Self::Picture(format))
     }

@@ -1,6 +1,8 @@
 use anyhow::Result;
 use cosmorama::camera::View;
-use cosmorama_convert::{ConvertError, ExplanationSettings, GeometrySettings, Place as SheetPlace, Setting};
+use cosmorama_convert::{
+    ConvertError, ExplanationSettings, GeometrySettings, MemoryBudget, Place as SheetPlace, Setting,
+};
 use cosmorama_scene::{Camera, Orthographic, Place, Scene};
 use cosmorama_spec::{Size, Spec};
 
@@ -25,7 +27,7 @@ pub(super) fn shots(args: &ShadeArgs, scene: &Scene) -> Result<Vec<Shot>> {
     match &args.camera {
         CameraName::Orthographic(height) => {
             let pixels = [size.width, size.height.unwrap_or_else(|| (size.width * 3).div_ceil(4))];
-            check_memory(args, pixels)?;
+            MemoryBudget::new(args.limits.memory).check_picture(pixels.into())?;
             let (place, usual) = scene.place_before_parallel(pixels);
             let camera = Orthographic::new(placed(args, place), height.unwrap_or(usual), pixels).map_err(wrong)?;
             Ok(vec![Shot { camera: Camera::Orthographic(camera), place: None }])
@@ -67,21 +69,6 @@ fn placed(args: &ShadeArgs, usual: Place) -> Place {
         eye: args.eye.map_or(usual.eye, |point| point.0.into()),
         target: args.target.map_or(usual.target, |point| point.0.into()),
     }
-}
-
-/// Refuses pictures of parallel rays that memory does not hold, as those of a lens are.
-fn check_memory(args: &ShadeArgs, [width, height]: [usize; 2]) -> Result<()> {
-    let spec: Spec = format!("perspective:fov={}", 40).parse()?;
-    let geometry = GeometrySettings {
-        from: Some(ANY_WORLD.parse()?),
-        to: Some(spec),
-        size: Some(Size { width, height: Some(height) }),
-        ..GeometrySettings::default()
-    };
-    let settings =
-        ExplanationSettings { geometry, limits: args.limits.clone().into(), ..ExplanationSettings::default() };
-    settings.check().result.map_err(of_camera)?.worlds().map_err(of_camera)?;
-    Ok(())
 }
 
 /// Returns an error about a target as one about the camera.

@@ -11,9 +11,10 @@ use std::time::Instant;
 use anyhow::Result;
 use cosmorama::filter::FilterSettings;
 use cosmorama::raster::{Image, Rgba};
-use cosmorama_convert::{check_apart, refuse_existing, threads};
+use cosmorama_convert::{check_apart, threads};
 use cosmorama_scene::{
-    Background, Chrome, Glass, LightMaps, Material, Refraction, Scene, SceneError, Sky, Surroundings, picture,
+    Background, Chrome, Glass, LightMaps, Material, MaterialError, Refraction, Scene, SceneError, Sky, Surroundings,
+    picture,
 };
 use cpu_time::ProcessTime;
 use serde_json::json;
@@ -21,7 +22,7 @@ use serde_json::json;
 use self::camera::{Shot, shots};
 use self::output::Output;
 use self::world::WorldInput;
-use super::make_folder;
+use super::prepare_output;
 use crate::args::{BackgroundName, ObjectName, RefractName, ShadeArgs};
 use crate::console::Console;
 use crate::failure::usage;
@@ -35,12 +36,10 @@ pub(super) fn run(args: ShadeArgs, console: &mut Console) -> Result<ExitCode> {
     let chrome = chrome(&args)?;
     let shots = shots(&args, &scene)?;
     let world = WorldInput::check(&args, console)?;
-    check_apart(path, world.files())?;
-    if !args.overwrite {
-        refuse_existing([path].into_iter())?;
+    if let Some(files) = world.files() {
+        check_apart(path, files)?;
     }
-    let folder = path.parent().filter(|folder| !args.no_mkdir && !folder.as_os_str().is_empty());
-    let _folders = folder.map(|folder| make_folder(folder, console)).transpose()?;
+    let _folders = prepare_output(path, args.file, console)?;
     let pool = threads(args.limits.threads)?;
     let world = pool.install(|| world.read(console))?;
     let read = clock.lap();
@@ -54,7 +53,9 @@ pub(super) fn run(args: ShadeArgs, console: &mut Console) -> Result<ExitCode> {
         BackgroundName::World => Background::World,
         BackgroundName::Colour(colour) => Background::Colour(colour),
     };
-    let image = pool.install(|| assembled(&shots, |shot| picture(&scene, &shot.camera, &surroundings, background)));
+    let image = pool.install(|| {
+        assembled(&shots, |shot| picture(&scene, &shot.camera, &surroundings, background).map_err(wrong))
+    })?;
     let shaded = clock.lap();
     pool.install(|| output.write(path, image, world.primaries, console))?;
     if args.json {
@@ -98,8 +99,7 @@ fn scene(args: &ShadeArgs) -> Result<Scene> {
         glass: glass(args, asked.glass)?,
         ..asked
     };
-    let options = if material.glass.is_some() { "--ior, --absorption or --surfaces" } else { "--dc, --sc or --alpha" };
-    material.check().map_err(|error| usage(format!("{error}; change {options}")))?;
+    material.check().map_err(|error| usage(format!("{}: {error}", option_of(&error))))?;
     match args.object {
         ObjectName::Sphere => Ok(Scene::sphere(material)),
         ObjectName::Spheres(_) if args.alpha.is_some() => {
@@ -108,7 +108,21 @@ fn scene(args: &ShadeArgs) -> Result<Scene> {
         ObjectName::Spheres(count) => {
             Scene::spheres(count, material).map_err(|error| usage(format!("--object: {error}")))
         }
+        ObjectName::Plate4 if material != Material::MIRROR => Err(usage(
+            "plate4 has materials of its own: leave out --material, --dc, --sc, --alpha and options of glass",
+        )),
         ObjectName::Plate4 => Ok(Scene::plate4()),
+    }
+}
+
+/// Returns the option that a number of a material comes from.
+fn option_of(error: &MaterialError) -> &'static str {
+    match error {
+        MaterialError::Coefficient(_) => "--dc, --sc",
+        MaterialError::Alpha(_) => "--alpha",
+        MaterialError::Index(_) => "--ior",
+        MaterialError::Absorption(_) => "--absorption",
+        MaterialError::Surfaces(_) => "--surfaces",
     }
 }
 
@@ -119,8 +133,8 @@ fn chrome(args: &ShadeArgs) -> Result<Chrome> {
         let is_given = args.chrome.is_some() || !args.highlight.is_empty();
         return if is_given { Err(usage(message)) } else { Ok(Chrome::earth_and_sky()) };
     }
-    if args.alpha.is_some() || matches!(args.object, ObjectName::Spheres(_) | ObjectName::Plate4) {
-        return Err(usage("chrome is one smooth sphere: leave out --alpha, spheres:N and plate4"));
+    if args.alpha.is_some() || matches!(args.object, ObjectName::Spheres(_)) {
+        return Err(usage("chrome is one smooth sphere: leave out --alpha and spheres:N"));
     }
     let highlights = args.highlight.iter().map(|name| name.0).collect();
     match &args.chrome {
@@ -149,20 +163,20 @@ fn glass(args: &ShadeArgs, asked: Option<Glass>) -> Result<Option<Glass>> {
 }
 
 /// Makes a picture of one shot, or of several side by side.
-fn assembled(shots: &[Shot], make: impl Fn(&Shot) -> Image<Rgba>) -> Image<Rgba> {
+fn assembled(shots: &[Shot], make: impl Fn(&Shot) -> Result<Image<Rgba>>) -> Result<Image<Rgba>> {
     if let [Shot { place: None, .. }] = shots {
         return make(&shots[0]);
     }
     let size = shots.iter().find_map(|shot| shot.place.as_ref()).map_or((0, 0), |place| place.of);
     let mut sheet = Image::filled(size.0, size.1, Rgba::TRANSPARENT);
     for shot in shots {
-        let (image, corner) = (make(shot), shot.place.as_ref().map_or((0, 0), |place| place.corner));
+        let (image, corner) = (make(shot)?, shot.place.as_ref().map_or((0, 0), |place| place.corner));
         for j in 0..image.height() {
             let start = (corner.1 + j) * size.0 + corner.0;
             sheet.pixels_mut()[start..start + image.width()].copy_from_slice(image.row(j));
         }
     }
-    sheet
+    Ok(sheet)
 }
 
 fn wrong(error: SceneError) -> anyhow::Error {

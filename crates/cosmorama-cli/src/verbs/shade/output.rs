@@ -7,6 +7,7 @@ use cosmorama_io::{Format, Metadata, WriteOptions, write};
 use crate::args::{BackgroundName, ShadeArgs};
 use crate::console::{Console, say};
 use crate::failure::usage;
+use crate::verbs::check_depth;
 
 /// Form of the picture that is written.
 pub(super) struct Output {
@@ -32,13 +33,7 @@ impl Output {
         let depth = match args.depth {
             Some(name) => {
                 let depth = Depth::from(name);
-                if !format.depths().contains(&depth) {
-                    let nearest = format.nearest_depth(depth);
-                    return Err(usage(format!(
-                        "{} is {format}, which has no samples of {depth}; the nearest are of {nearest}",
-                        args.output
-                    )));
-                }
+                check_depth(path, format, depth, format.depths())?;
                 depth
             }
             None => {

@@ -9,14 +9,14 @@ use cosmorama::world::World;
 use cosmorama_builtin::BuiltinWorld;
 use cosmorama_convert::{Builtin, Conversion, GeometrySettings, Radiance, WorldLight};
 
-use crate::args::{BackgroundName, ObjectName, ShadeArgs};
+use crate::args::{BackgroundName, ShadeArgs};
 use crate::console::Console;
 use crate::failure::usage;
 use crate::pipe::KeptStreams;
 
 /// The world that things stand under, checked but not read.
 pub(super) enum WorldInput {
-    Files { light: Box<WorldLight>, files: HashSet<PathBuf> },
+    Files(Box<WorldLight>),
     Formula(BuiltinWorld),
     None,
 }
@@ -58,24 +58,21 @@ impl WorldInput {
         };
         let checked = conversion.files(kept.files()).check_light();
         console.tell_all(&checked);
-        let light = checked.result?;
-        let files = light.files().clone();
-        Ok(Self::Files { light: Box::new(light), files })
+        Ok(Self::Files(Box::new(checked.result?)))
     }
 
-    /// Returns the files that are read, by their real paths.
-    pub(super) fn files(&self) -> &HashSet<PathBuf> {
-        static NO_FILES: std::sync::LazyLock<HashSet<PathBuf>> = std::sync::LazyLock::new(HashSet::new);
+    /// Returns the files that are read, by their real paths, if any are.
+    pub(super) fn files(&self) -> Option<&HashSet<PathBuf>> {
         match self {
-            Self::Files { files, .. } => files,
-            Self::Formula(_) | Self::None => &NO_FILES,
+            Self::Files(light) => Some(light.files()),
+            Self::Formula(_) | Self::None => None,
         }
     }
 
     /// Reads the world, or renders it.
     pub(super) fn read(&self, console: &Console) -> Result<Radiance> {
         match self {
-            Self::Files { light, .. } => {
+            Self::Files(light) => {
                 let radiance = light.radiance()?;
                 radiance.diagnostics.iter().for_each(|diagnostic| console.warn(diagnostic));
                 Ok(radiance)
@@ -88,7 +85,7 @@ impl WorldInput {
 
 /// Checks that nothing needs a world.
 fn without(args: &ShadeArgs) -> Result<WorldInput> {
-    if !args.material.0.chrome || args.dc.unwrap_or(0.0) > 0.0 || args.object == ObjectName::Plate4 {
+    if !args.material.0.chrome || args.dc.unwrap_or(0.0) > 0.0 {
         return Err(usage("without a world there is only chrome: name a world, or give --material chrome and no --dc"));
     }
     if args.background == BackgroundName::World {

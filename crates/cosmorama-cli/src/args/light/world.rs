@@ -1,0 +1,38 @@
+use clap::Args;
+use cosmorama_convert::{Conversion, GeometrySettings};
+use cosmorama_io::FrameList;
+use cosmorama_spec::{Missing, Spec, TransferName};
+
+use crate::args::convert::{LimitArgs, frame_list};
+use crate::args::parse::listed;
+
+/// What is to be known of a world whose light is wanted, and not a picture of it.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct WorldArgs {
+    /// The input's projection [default: found]
+    #[arg(long, value_name = "SPEC", value_parser = listed::spec(), hide_possible_values = true, help_heading = "Geometry")]
+    pub(crate) from: Option<Spec>,
+    /// How integer code values relate to light: auto (default), srgb, linear, …
+    #[arg(long, value_name = "T", default_value = "auto", value_parser = listed::transfer(), hide_possible_values = true, hide_default_value = true, help_heading = "Light")]
+    pub(crate) transfer: TransferName,
+    /// Which frame of several
+    #[arg(long, value_name = "N", value_parser = frame_list, allow_hyphen_values = true, help_heading = "Frames and files")]
+    pub(crate) frames: Option<FrameList>,
+    #[command(flatten)]
+    pub(crate) limits: LimitArgs,
+}
+
+impl WorldArgs {
+    /// Returns the settings by which the world is read.
+    pub(super) fn conversion(self, input: String, missing: Missing) -> Conversion {
+        Conversion {
+            input,
+            geometry: GeometrySettings { from: self.from, ..GeometrySettings::default() },
+            transfer: self.transfer,
+            missing,
+            frames: self.frames,
+            limits: self.limits.into(),
+            ..Conversion::default()
+        }
+    }
+}
