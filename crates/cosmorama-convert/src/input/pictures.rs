@@ -15,7 +15,7 @@ use crate::input::lists::hugin;
 use crate::input::{Input, InputView, packed};
 use crate::packing::EyePart;
 use crate::packing::canvas::{canvas_of, fits_canvas, fits_shape, lies_on_canvas, whole};
-use crate::source::{Access, ViewFiles, frames, unread};
+use crate::source::{Access, ViewFiles, unread, wanted_frames};
 
 impl Input {
     /// Finds pictures, by their own name or by a Hugin project's.
@@ -99,7 +99,7 @@ impl Input {
         warnings: &mut Vec<Diagnostic>,
     ) -> Result<Self> {
         let files = ViewFiles::new(Path::new(pattern));
-        let frames = frames::find(&files, wanted).map_err(with_faces)?;
+        let frames = wanted_frames::find(&files, wanted).map_err(with_faces)?;
         let path = files.path(frames[0]);
         is_one_file(access.files, pattern, &path)?;
         let mut header = header(access, &path, eye)?;

@@ -2,14 +2,14 @@
 
 pub(crate) mod access;
 pub(crate) mod decoded_picture;
-pub(crate) mod frames;
 pub(crate) mod memory_budget;
 pub(crate) mod system_memory;
 pub(crate) mod unread;
 pub(crate) mod view_files;
+pub(crate) mod wanted_frames;
 
 pub use access::{Disk, Files, InMemory, probe, read};
-pub use frames::existing as existing_frames;
+pub use wanted_frames::existing as existing_frames;
 pub use memory_budget::MemoryBudget;
 pub use system_memory::peak_bytes;
 pub use view_files::ViewFiles;

@@ -8,7 +8,7 @@ use crate::input::faces::face_shape::size_of_missing;
 use crate::input::folder::face_set;
 use crate::input::{Face, FacePicture, Input};
 use crate::packing::EyePart;
-use crate::source::{Access, ViewFiles, frames};
+use crate::source::{Access, ViewFiles, wanted_frames};
 
 impl Input {
     /// Finds the faces of a cube in files of their own.
@@ -43,7 +43,7 @@ impl Input {
         let files: Vec<ViewFiles> = chosen.iter().map(|face| ViewFiles::new(&face.path)).collect();
         let present = chosen.iter().zip(&files).filter(|(face, _)| face.present);
         let present: Vec<_> = present.map(|(face, files)| (face.face.name(), files)).collect();
-        let frames = frames::find_of_faces(pattern, &present, wanted)?;
+        let frames = wanted_frames::find_of_faces(pattern, &present, wanted)?;
         let mut faces = Vec::new();
         for (face, files) in chosen.into_iter().zip(files) {
             faces.push(Face::probe(cube, face, files, (eye, access), frames[0])?);

@@ -11,7 +11,7 @@ use crate::diagnostic::{Code, ConvertError, Diagnostic, FROM, Mark, Result, TO, 
 use crate::input::lists::hugin;
 use crate::input::spec_files::calibration::read_calibrations;
 use crate::settings::GeometrySettings;
-use crate::source::{Access, ViewFiles, frames};
+use crate::source::{Access, ViewFiles, wanted_frames};
 
 /// Side of a conversion for which a map is given.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -178,7 +178,7 @@ fn other_side(shape: Option<&Shape>, side: Side) -> Result<Placement> {
 /// Returns the size of the input's first picture.
 fn input_size(input: &str, access: Access) -> Result<(usize, usize)> {
     let files = ViewFiles::new(Path::new(input));
-    let first = frames::find(&files, None)?[0];
+    let first = wanted_frames::find(&files, None)?[0];
     Ok(canvas_size(&access.probe(&files.path(first))?))
 }
 
