@@ -1,3 +1,4 @@
+use cosmorama::camera::CameraError;
 use cosmorama::lighting::LobeError;
 use cosmorama::world::LightError;
 use thiserror::Error;
@@ -21,6 +22,9 @@ pub enum SceneError {
     /// A picture without pixels.
     #[error("a picture of {}x{} has no pixels", .0[0], .0[1])]
     NoPixels([usize; 2]),
+    /// A camera's numbers make no view.
+    #[error(transparent)]
+    Camera(#[from] CameraError),
     /// A material is out of range.
     #[error(transparent)]
     Material(#[from] MaterialError),
@@ -36,6 +40,12 @@ pub enum SceneError {
     /// The maps of light are not those of the scene's materials.
     #[error("the maps of light are of another scene: there is none for {0}")]
     NoMap(&'static str),
+    /// A mesh of glass has a hole.
+    #[error(
+        "glass must be closed, but the mesh ends at the edge from {:?} to {:?}; close it, or give it another material",
+        .0[0], .0[1]
+    )]
+    Open([[f64; 3]; 2]),
     /// A row of spheres without spheres, or with too many.
     #[error("a row of {count} spheres: expected 1 to {most}")]
     Count {

@@ -29,6 +29,7 @@
 mod camera;
 mod error;
 mod material;
+mod model;
 mod picture;
 mod scene;
 mod shade;
@@ -37,7 +38,8 @@ mod shape;
 pub use camera::{Camera, Normal, Orthographic, Place, Ray, RayChange};
 pub use error::SceneError;
 pub use material::{Glass, Material, MaterialError, Refraction};
+pub use model::{EXTENSIONS as MODEL_EXTENSIONS, Model, ModelCamera, ModelError, ModelFault, ModelLens, ModelSettings};
 pub use picture::{Background, picture};
-pub use scene::{Object, Scene};
+pub use scene::{Object, Part, Scene};
 pub use shade::{Chrome, Highlight, LightMaps, Sky, Surroundings};
-pub use shape::Sphere;
+pub use shape::{Face, Mesh, MeshError, Normals, Shape, Sphere};

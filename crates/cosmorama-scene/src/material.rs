@@ -3,7 +3,7 @@ use thiserror::Error;
 /// Treatment of light by a surface: dc·D + sc·S (Greene 1986, section 5), or glass.
 ///
 /// D is the light that falls on a matt surface, S what is reflected about the mirror direction.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// Part of the light that is scattered equally in all directions: dc.
     pub diffuse: f64,

@@ -6,22 +6,38 @@ use glam::DVec3;
 use crate::camera::Place;
 use crate::error::SceneError;
 use crate::material::Material;
-use crate::shape::Sphere;
+use crate::shape::{Shape, Sphere};
 
 /// Things under a world. They see the world, and not one another: that is environment mapping.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub struct Scene {
     /// Its things.
     pub objects: Vec<Object>,
 }
 
 /// A thing.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Object {
     /// Its shape.
-    pub sphere: Sphere,
-    /// Its surface.
+    pub shape: Shape,
+    /// Parts of its surface. A sphere has one; the triangles of a mesh name theirs by index.
+    pub parts: Vec<Part>,
+}
+
+/// A part of a thing's surface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// Its name.
+    pub name: String,
+    /// Its material.
     pub material: Material,
+}
+
+impl Object {
+    /// Returns a sphere of one material.
+    pub fn sphere(sphere: Sphere, material: Material) -> Self {
+        Self { shape: Shape::Sphere(sphere), parts: vec![Part { name: "sphere".to_owned(), material }] }
+    }
 }
 
 /// Distance between the centres of spheres of radius 1 that stand in a row.
@@ -46,39 +62,58 @@ impl Scene {
     ///
     /// # Errors
     /// When there are none, or more than [`Scene::MOST_SPHERES`].
-    pub fn spheres(count: usize, material: Material) -> Result<Self, SceneError> {
+    pub fn spheres(count: usize, material: &Material) -> Result<Self, SceneError> {
         if !(1..=Self::MOST_SPHERES).contains(&count) {
             return Err(SceneError::Count { count, most: Self::MOST_SPHERES });
         }
         // Evenly spaced in the root of α, which is what eyes take for roughness.
         let roughness = |k: usize| 1.0 - k as f64 / (count - 1).max(1) as f64;
         let materials: Vec<Material> =
-            (0..count).map(|k| Material { alpha: roughness(k).powi(2), ..material }).collect();
+            (0..count).map(|k| Material { alpha: roughness(k).powi(2), ..material.clone() }).collect();
         Ok(Self::row(&materials))
     }
 
     /// Returns spheres of radius 1 side by side along the x axis, about the origin.
     pub fn row(materials: &[Material]) -> Self {
         let first = -0.5 * PITCH * materials.len().saturating_sub(1) as f64;
-        let object = |(k, material): (usize, &Material)| Object {
-            sphere: Sphere::new(DVec3::X * (first + PITCH * k as f64), 1.0),
-            material: *material,
+        let object = |(k, material): (usize, &Material)| {
+            Object::sphere(Sphere::new(DVec3::X * (first + PITCH * k as f64), 1.0), material.clone())
         };
         Self { objects: materials.iter().enumerate().map(object).collect() }
     }
 
     /// Checks that all materials are in range.
     pub(crate) fn check(&self) -> Result<(), SceneError> {
-        Ok(self.objects.iter().try_for_each(|object| object.material.check())?)
+        for object in &self.objects {
+            object.parts.iter().try_for_each(|part| part.material.check())?;
+            let is_glass = object.parts.iter().any(|part| part.material.glass.is_some());
+            if let (true, Shape::Mesh(mesh)) = (is_glass, &object.shape)
+                && let Some(edge) = mesh.hole()
+            {
+                return Err(SceneError::Open(edge.map(|end| end.to_array())));
+            }
+        }
+        Ok(())
     }
 
-    /// Returns the radius of a ball around the origin that holds everything.
-    pub fn radius(&self) -> f64 {
-        let reach = |object: &Object| object.sphere.centre.length() + object.sphere.radius;
-        self.objects.iter().map(reach).fold(0.0, f64::max)
+    /// Lists the materials of all parts.
+    pub(crate) fn materials(&self) -> impl Iterator<Item = &Material> {
+        self.objects.iter().flat_map(|object| &object.parts).map(|part| &part.material)
     }
 
-    /// Returns the place on the z axis from which a view that looks ahead sees everything.
+    /// Lists balls that hold everything.
+    fn balls(&self) -> impl Iterator<Item = &Sphere> {
+        self.objects.iter().map(|object| object.shape.ball())
+    }
+
+    /// Returns the middle of the box around everything.
+    fn middle(&self) -> DVec3 {
+        let low = self.balls().map(|ball| ball.centre - ball.radius).reduce(DVec3::min);
+        let high = self.balls().map(|ball| ball.centre + ball.radius).reduce(DVec3::max);
+        low.zip(high).map_or(DVec3::ZERO, |(low, high)| 0.5 * (low + high))
+    }
+
+    /// Returns the place before the middle of everything from which a view that looks along −Z sees it all.
     pub fn place_before(&self, view: &View) -> Place {
         /// Air around the things.
         const MARGIN: f64 = 1.05;
@@ -92,25 +127,30 @@ impl Scene {
         let (across, down) = (half(0.0, 0.5), half(0.5, 0.0));
         // A ball that touches a side of the field of view from within.
         let away = |aside: f64, radius: f64, half: f64| (aside.abs() * half.cos() + radius) / half.sin();
-        let distance = |Object { sphere: Sphere { centre, radius }, .. }: &Object| {
-            away(centre.x, *radius, across).max(away(centre.y, *radius, down)) + centre.z
+        let middle = self.middle();
+        let distance = |Sphere { centre, radius }: &Sphere| {
+            let offset = *centre - middle;
+            away(offset.x, *radius, across).max(away(offset.y, *radius, down)) + offset.z
         };
-        let distance = self.objects.iter().map(distance).fold(0.0, f64::max);
-        Place { eye: DVec3::Z * (MARGIN * distance), target: DVec3::ZERO }
+        let distance = self.balls().map(distance).fold(0.0, f64::max);
+        Place { eye: middle + DVec3::Z * (MARGIN * distance), target: middle }
     }
 
-    /// Returns the place on the z axis, and the height of the picture, by which a camera of parallel rays sees
+    /// Returns the place before the middle, and the height of the picture, by which a camera of parallel rays sees
     /// everything.
     pub fn place_before_parallel(&self, pixels: [usize; 2]) -> (Place, f64) {
         /// Air around the things, and the distance of the eye, in radii.
         const MARGIN: f64 = 1.1;
         const AWAY: f64 = 4.0;
         let aspect = pixels[0] as f64 / pixels[1].max(1) as f64;
-        let half = |Object { sphere: Sphere { centre, radius }, .. }: &Object| {
-            (centre.y.abs() + radius).max((centre.x.abs() + radius) / aspect)
+        let middle = self.middle();
+        let half = |Sphere { centre, radius }: &Sphere| {
+            let offset = *centre - middle;
+            (offset.y.abs() + radius).max((offset.x.abs() + radius) / aspect)
         };
-        let half = self.objects.iter().map(half).fold(0.0, f64::max);
-        let place = Place { eye: DVec3::Z * (AWAY * self.radius()), target: DVec3::ZERO };
+        let half = self.balls().map(half).fold(0.0, f64::max);
+        let away = self.balls().map(|ball| ball.centre.distance(middle) + ball.radius).fold(0.0, f64::max);
+        let place = Place { eye: middle + DVec3::Z * (AWAY * away), target: middle };
         (place, 2.0 * MARGIN * half)
     }
 }

@@ -72,6 +72,11 @@ impl MemoryBudget {
         self.allow(needed, "a picture", &format!("; it has {}x{} pixels", size.0, size.1))
     }
 
+    /// Returns how many things of so many bytes fit.
+    pub fn count_of(self, bytes: usize) -> usize {
+        usize::try_from(self.bytes / bytes.max(1) as u64).unwrap_or(usize::MAX)
+    }
+
     /// Returns the budget that is left when so many bytes are taken.
     pub(crate) fn beside(self, taken: u64) -> Self {
         Self { bytes: self.bytes.saturating_sub(taken), ..self }

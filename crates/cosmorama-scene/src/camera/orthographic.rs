@@ -27,16 +27,24 @@ impl Orthographic {
     /// # Errors
     /// When the place has no direction, the height is not more than 0, or there are no pixels.
     pub fn new(place: Place, height: f64, pixels: [usize; 2]) -> Result<Self, SceneError> {
+        Self::turned((place.eye, place.orientation()?), height, pixels)
+    }
+
+    /// Returns the camera of an eye with an orientation.
+    pub(crate) fn turned(
+        (eye, orientation): (DVec3, Orientation),
+        height: f64,
+        pixels: [usize; 2],
+    ) -> Result<Self, SceneError> {
         if !(height.is_finite() && height > 0.0) {
             return Err(SceneError::Height(height));
         }
         if pixels.contains(&0) {
             return Err(SceneError::NoPixels(pixels));
         }
-        let orientation: Orientation = place.orientation()?;
         let axis = |direction: Direction| orientation.to_world(direction).vector();
         Ok(Self {
-            eye: place.eye,
+            eye,
             right: axis(Direction::RIGHT),
             up: axis(Direction::UP),
             forward: axis(Direction::FRONT),

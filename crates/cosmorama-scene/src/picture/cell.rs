@@ -2,11 +2,13 @@ use cosmorama::camera::PixelPoint;
 use cosmorama::raster::Rgba;
 
 use super::QUARTERS;
+use super::marks::Marks;
+use super::sampled::Sighting;
 use super::small::Reflection;
 use crate::camera::{Camera, Ray};
-use crate::scene::{Object, Scene};
+use crate::scene::Scene;
 use crate::shade::{Beam, Detail, Surroundings};
-use crate::shape::{Meeting, Wall};
+use crate::shape::{Meeting, Shape, Sphere, Wall};
 
 /// Maker of single pixels.
 #[derive(Clone, Copy)]
@@ -16,24 +18,39 @@ pub(super) struct Pixel<'a> {
     pub(super) surroundings: &'a Surroundings<'a>,
     /// Reflections of the things of few pixels, by their place in the scene.
     pub(super) reflections: &'a [Option<Reflection>],
+    /// Pixels that edges of meshes cross.
+    pub(super) marks: &'a Marks,
 }
 
 /// A square part of a pixel.
 #[derive(Clone, Copy, Debug)]
-struct Cell {
-    centre: PixelPoint,
+pub(super) struct Cell {
+    pub(super) centre: PixelPoint,
     /// Side, in pixels.
-    side: f64,
+    pub(super) side: f64,
     /// Number of halvings.
     depth: usize,
     /// Column and row of the pixel.
-    pixel: [usize; 2],
+    pub(super) pixel: [usize; 2],
 }
 
-/// Part of a cell that a thing covers.
+/// Surface of a thing in a part of a pixel.
+pub(super) struct Seen<'a> {
+    /// The thing's place in the scene.
+    pub(super) object: usize,
+    pub(super) wall: &'a Wall,
+    pub(super) pixel: [usize; 2],
+    /// Number of halvings of the pixel to the part.
+    pub(super) depth: usize,
+    /// Whether the part may be parted further.
+    pub(super) may_split: bool,
+}
+
+/// Part of a cell that a sphere covers.
 struct Part<'a> {
-    object: &'a Object,
-    reflection: Option<&'a Reflection>,
+    sphere: &'a Sphere,
+    /// The sphere's place in the scene.
+    object: usize,
     /// Distance of its centre, by which nearer things hide others.
     distance: f64,
     coverage: f64,
@@ -62,11 +79,26 @@ enum Sight<'a> {
     Parts(Vec<Part<'a>>),
 }
 
+impl Cell {
+    /// Returns the whole of a pixel.
+    pub(super) fn pixel(i: usize, j: usize) -> Self {
+        Self { centre: PixelPoint::centre(i, j), side: 1.0, depth: 0, pixel: [i, j] }
+    }
+
+    fn quarters(self) -> [Self; 4] {
+        QUARTERS.map(|(x, y)| Self {
+            centre: PixelPoint::new(self.centre.x + x * self.side, self.centre.y + y * self.side),
+            side: 0.5 * self.side,
+            depth: self.depth + 1,
+            ..self
+        })
+    }
+}
+
 impl<'a> Pixel<'a> {
-    /// Returns the light of all things in a pixel, premultiplied by the part that they cover; `None` if there are none.
-    pub(super) fn light(&self, i: usize, j: usize) -> Option<Rgba> {
-        let cell = Cell { centre: PixelPoint::centre(i, j), side: 1.0, depth: 0, pixel: [i, j] };
-        let light = self.cell(cell);
+    /// Returns the light of some spheres in a pixel, premultiplied by the part that they cover; `None` if there are none.
+    pub(super) fn light(&self, i: usize, j: usize, things: &[usize]) -> Option<Rgba> {
+        let light = self.cell(Cell::pixel(i, j), things);
         if light.alpha() <= 0.0 {
             return None;
         }
@@ -75,42 +107,42 @@ impl<'a> Pixel<'a> {
     }
 
     /// Returns the light of a cell, as a part of the cell.
-    fn cell(&self, cell: Cell) -> Rgba {
+    fn cell(&self, cell: Cell, things: &[usize]) -> Rgba {
+        let quarters = || mean(cell, |quarter| self.cell(quarter, things));
         let Some(ray) = self.camera.ray(cell.centre) else {
-            return if cell.depth < AT_OUTLINES { self.quarters(cell) } else { Rgba::TRANSPARENT };
+            return if cell.depth < AT_OUTLINES { quarters() } else { Rgba::TRANSPARENT };
         };
-        match self.sight(&ray.scaled(cell.side), cell) {
-            Sight::Split => self.quarters(cell),
-            Sight::Parts(parts) => self.parts(cell, parts).unwrap_or_else(|| self.quarters(cell)),
+        match self.sight(&ray.scaled(cell.side), cell, things) {
+            Sight::Split => quarters(),
+            Sight::Parts(parts) => self.parts(cell, parts).unwrap_or_else(quarters),
         }
     }
 
-    fn quarters(&self, cell: Cell) -> Rgba {
-        let mut sum = Rgba::TRANSPARENT;
-        for (x, y) in QUARTERS {
-            let centre = PixelPoint::new(cell.centre.x + x * cell.side, cell.centre.y + y * cell.side);
-            let part = self.cell(Cell { centre, side: 0.5 * cell.side, depth: cell.depth + 1, ..cell }) * 0.25;
-            sum += part;
-        }
-        sum
+    /// Returns the light of a cell in which one surface is seen, of a ray through its middle.
+    pub(super) fn smooth(&self, cell: Cell, things: &[usize]) -> Rgba {
+        let Some(Sighting { ray, object, hit }) = self.sighting(cell.centre, things) else { return Rgba::TRANSPARENT };
+        let wall = self.scene.objects[object].shape.wall(&ray.scaled(cell.side), &hit);
+        let seen = Seen { object, wall: &wall, pixel: cell.pixel, depth: cell.depth, may_split: true };
+        self.lit(&seen).unwrap_or_else(|| mean(cell, |quarter| self.smooth(quarter, things)))
     }
 
     /// Tells what a beam meets.
-    fn sight(&self, beam: &Ray, cell: Cell) -> Sight<'a> {
+    fn sight(&self, beam: &Ray, cell: Cell, things: &[usize]) -> Sight<'a> {
         let mut parts = Vec::new();
-        for (index, object) in self.scene.objects.iter().enumerate() {
-            let (coverage, middle) = match object.sphere.meeting(beam) {
+        for object in things {
+            let Shape::Sphere(sphere) = &self.scene.objects[*object].shape else { continue };
+            let (coverage, middle) = match sphere.meeting(beam) {
                 Meeting::Missed => continue,
                 Meeting::Met => (1.0, [0.0; 2]),
                 Meeting::Wide if cell.depth < MOST => return Sight::Split,
-                Meeting::Wide if object.sphere.meet(beam, 0.0).is_some() => (1.0, [0.0; 2]),
+                Meeting::Wide if sphere.meet(beam, 0.0).is_some() => (1.0, [0.0; 2]),
                 Meeting::Wide => continue,
                 Meeting::Crossed(_) if cell.depth < AT_OUTLINES => return Sight::Split,
                 Meeting::Crossed(edge) => (edge.coverage(), edge.middle()),
             };
             if coverage > LEAST {
-                let distance = (object.sphere.centre - beam.origin).dot(beam.direction);
-                parts.push(Part { object, reflection: self.reflections[index].as_ref(), distance, coverage, middle });
+                let distance = (sphere.centre - beam.origin).dot(beam.direction);
+                parts.push(Part { sphere, object: *object, distance, coverage, middle });
             }
         }
         parts.sort_by(|a, b| a.distance.total_cmp(&b.distance));
@@ -135,20 +167,32 @@ impl<'a> Pixel<'a> {
         let [x, y] = part.middle.map(|offset| offset * cell.side);
         let ray = self.camera.ray(PixelPoint::new(cell.centre.x + x, cell.centre.y + y));
         let Some(beam) = ray.map(|ray| ray.scaled(cell.side)) else { return Some(Rgba::TRANSPARENT) };
-        let sphere = &part.object.sphere;
-        let Some(Wall { met, normal, .. }) = sphere.wall(&beam, 0.0) else { return Some(Rgba::TRANSPARENT) };
-        let material = &part.object.material;
-        let whole = part.reflection.and_then(|reflection| reflection.light(cell.pixel));
+        let Some(wall) = part.sphere.wall(&beam, 0.0) else { return Some(Rgba::TRANSPARENT) };
+        let may_split = part.coverage == 1.0;
+        self.lit(&Seen { object: part.object, wall: &wall, pixel: cell.pixel, depth: cell.depth, may_split })
+    }
+
+    /// Returns the light of a surface as if it were all of a part of a pixel; `None` if that must be split.
+    pub(super) fn lit(&self, seen: &Seen) -> Option<Rgba> {
+        let object = &self.scene.objects[seen.object];
+        let Wall { met, normal, part, .. } = seen.wall;
+        let material = &object.parts[*part].material;
+        let whole = self.reflections[seen.object].as_ref().and_then(|reflection| reflection.light(seen.pixel));
         if let Some(reflected) = whole {
-            return Some(self.surroundings.shade(&normal, reflected, material));
+            return Some(self.surroundings.shade(normal, reflected, material));
         }
-        let beams = Beam::of(&met, &normal, material, sphere);
+        let beams = Beam::of(met, normal, material, object.shape.solid());
         let widest = Beam::widest(&beams);
-        let split = widest > STRAIGHT && cell.depth < MOST || widest > ROUGH && cell.depth < AT_ONCE;
-        if split && part.coverage == 1.0 {
+        let split = widest > STRAIGHT && seen.depth < MOST || widest > ROUGH && seen.depth < AT_ONCE;
+        if split && seen.may_split {
             return None;
         }
-        let detail = if cell.depth > AT_ONCE { Detail::Part } else { Detail::Pixel };
-        Some(self.surroundings.shade(&normal, self.surroundings.reflected(&beams, material, detail), material))
+        let detail = if seen.depth > AT_ONCE { Detail::Part } else { Detail::Pixel };
+        Some(self.surroundings.shade(normal, self.surroundings.reflected(&beams, material, detail), material))
     }
+}
+
+/// Returns the mean light of a cell's quarters.
+fn mean(cell: Cell, light: impl Fn(Cell) -> Rgba) -> Rgba {
+    cell.quarters().into_iter().fold(Rgba::TRANSPARENT, |sum, quarter| sum + light(quarter) * 0.25)
 }

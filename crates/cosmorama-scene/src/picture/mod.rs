@@ -1,6 +1,8 @@
 //! Whole pictures of scenes.
 
 mod cell;
+mod marks;
+mod sampled;
 mod small;
 mod tiles;
 
@@ -15,6 +17,7 @@ use crate::scene::Scene;
 use crate::shade::{Detail, Surroundings};
 
 use cell::Pixel;
+use marks::Marks;
 use small::Reflection;
 use tiles::Tile;
 
@@ -33,7 +36,7 @@ pub enum Background {
 /// Makes the picture of a scene, in linear light premultiplied by alpha.
 ///
 /// Each pixel sees one cell, or several where an outline crosses it or where curvature shows it much of the world at
-/// once. Each cell is one average. What balls of few pixels reflect is the sum over parts of the world. The result does
+/// once. Each cell is one average. Where edges of meshes cross a pixel, many rays tell what each surface covers of it. What balls of few pixels reflect is the sum over parts of the world. The result does
 /// not depend on the number of threads.
 ///
 /// # Errors
@@ -47,17 +50,16 @@ pub fn picture(
     surroundings.check(scene)?;
     let mut image = backdrop(camera, surroundings, background);
     let width = camera.width();
-    let seen: Vec<Tile> = Tile::all(camera).filter(|tile| tile.shows(scene, camera)).collect();
+    let seen = Tile::all(camera).map(|tile| (tile, tile.things(scene, camera)));
+    let seen: Vec<(Tile, Vec<usize>)> = seen.filter(|(_, things)| !things.is_empty()).collect();
     let reflection = |object| Reflection::of(object, camera, surroundings);
     let reflections: Vec<Option<Reflection>> = scene.objects.iter().map(reflection).collect();
-    let pixel = Pixel { scene, camera, surroundings, reflections: &reflections };
-    let made: Vec<(usize, Rgba)> = seen
-        .par_iter()
-        .flat_map_iter(|tile| tile.pixels())
-        .filter_map(|(i, j)| Some((j * width + i, pixel.light(i, j)?)))
-        .collect();
-    for (k, thing) in made {
-        let behind = &mut image.pixels_mut()[k];
+    let marks = Marks::of(scene, camera);
+    let pixel = Pixel { scene, camera, surroundings, reflections: &reflections, marks: &marks };
+    let made: Vec<([usize; 2], Rgba)> =
+        seen.par_iter().flat_map_iter(|(tile, things)| pixel.tile(tile, things)).collect();
+    for ([i, j], thing) in made {
+        let behind = &mut image.pixels_mut()[j * width + i];
         *behind = thing.over(*behind);
     }
     Ok(image)

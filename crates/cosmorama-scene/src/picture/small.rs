@@ -11,9 +11,10 @@ use rayon::prelude::*;
 
 use super::QUARTERS;
 use crate::camera::{Camera, Ray};
+use crate::material::Material;
 use crate::scene::Object;
 use crate::shade::{Detail, Surroundings};
-use crate::shape::{Sphere, Wall};
+use crate::shape::{Shape, Sphere, Wall};
 
 /// Greatest radius, in pixels, of a ball that is treated so.
 const SMALL: f64 = 8.0;
@@ -47,7 +48,8 @@ struct Patch {
 
 /// Maker of a ball's reflection.
 struct Thrower<'a> {
-    object: &'a Object,
+    sphere: &'a Sphere,
+    material: &'a Material,
     camera: &'a Camera,
     surroundings: &'a Surroundings<'a>,
 }
@@ -55,13 +57,14 @@ struct Thrower<'a> {
 impl Reflection {
     /// Computes what a ball reflects; `None` for a large one, for one that is not seen, for glass and for chrome.
     pub(super) fn of(object: &Object, camera: &Camera, surroundings: &Surroundings) -> Option<Self> {
-        let (sphere, material) = (&object.sphere, &object.material);
+        let Shape::Sphere(sphere) = &object.shape else { return None };
+        let material = &object.parts.first()?.material;
         if material.glass.is_some() || material.chrome || material.specular == 0.0 {
             return None;
         }
         let radius = radius_in_pixels(sphere, camera).filter(|radius| *radius < SMALL)?;
         let parts = (PARTS * (2.0 * radius / FEW).max(1.0)).ceil() as usize;
-        let thrower = Thrower { object, camera, surroundings };
+        let thrower = Thrower { sphere, material, camera, surroundings };
         // In order, so that sums are those of any number of threads.
         let strips: Vec<Self> = (0..6 * parts)
             .into_par_iter()
@@ -159,12 +162,12 @@ impl Thrower<'_> {
     }
 
     fn light(&self, footprint: &Footprint) -> Rgba {
-        self.surroundings.reflection(&self.object.material, footprint, Detail::Part)
+        self.surroundings.reflection(self.material, footprint, Detail::Part)
     }
 
     /// Returns where the ball shows a part of the world; `None` if it does not.
     fn place(&self, seen: &Footprint) -> Option<Shown> {
-        let sphere = &self.object.sphere;
+        let sphere = self.sphere;
         let normal = self.normal(seen.direction.vector())?;
         let point = sphere.centre + normal * sphere.radius;
         let pixel = self.camera.pixel(point)?;
@@ -179,7 +182,7 @@ impl Thrower<'_> {
 
     /// Returns the ray that the ball reflects at a point of the picture.
     fn reflected(&self, pixel: PixelPoint) -> Option<Ray> {
-        let Wall { met, normal, .. } = self.object.sphere.wall(&self.camera.ray(pixel)?, 0.0)?;
+        let Wall { met, normal, .. } = self.sphere.wall(&self.camera.ray(pixel)?, 0.0)?;
         Some(met.reflected(&normal))
     }
 
@@ -189,7 +192,7 @@ impl Thrower<'_> {
     /// is nearer by the ratio of the ball's radius to the distance.
     fn normal(&self, seen: DVec3) -> Option<DVec3> {
         const STEPS: usize = 16;
-        let sphere = &self.object.sphere;
+        let sphere = self.sphere;
         let mut view = self.camera.towards(sphere.centre)?;
         for _ in 0..STEPS {
             let normal = (seen - view).try_normalize()?;

@@ -1,7 +1,8 @@
 use cosmorama::camera::PixelPoint;
 
 use crate::camera::{Camera, Ray};
-use crate::scene::{Object, Scene};
+use crate::scene::Scene;
+use crate::shape::Sphere;
 
 /// A rectangle of pixels.
 #[derive(Clone, Copy, Debug)]
@@ -36,23 +37,44 @@ impl Tile {
         (self.top..self.bottom).flat_map(move |j| (self.left..self.right).map(move |i| (i, j)))
     }
 
-    /// Returns whether a thing may be seen here.
-    pub(super) fn shows(&self, scene: &Scene, camera: &Camera) -> bool {
+    /// Returns the tile with one more pixel on each side, within the picture.
+    pub(super) fn grown(&self, camera: &Camera) -> Self {
+        Self {
+            left: self.left.saturating_sub(1),
+            top: self.top.saturating_sub(1),
+            right: (self.right + 1).min(camera.width()),
+            bottom: (self.bottom + 1).min(camera.height()),
+        }
+    }
+
+    /// Returns the number of its columns.
+    pub(super) fn width(&self) -> usize {
+        self.right - self.left
+    }
+
+    /// Returns the place of a pixel in [`Tile::pixels`]; `None` if it is not in the tile.
+    pub(super) fn place(&self, i: usize, j: usize) -> Option<usize> {
+        let is_inside = (self.left..self.right).contains(&i) && (self.top..self.bottom).contains(&j);
+        is_inside.then(|| (j - self.top) * self.width() + i - self.left)
+    }
+
+    /// Lists the things that may be seen here, by their places in the scene.
+    pub(super) fn things(&self, scene: &Scene, camera: &Camera) -> Vec<usize> {
         let [left, top, right, bottom] = [self.left, self.top, self.right, self.bottom].map(|edge| edge as f64);
         let corners = [(left, top), (right, top), (left, bottom), (right, bottom)];
         let at = |(x, y): (f64, f64)| camera.ray(PixelPoint::new(x, y));
-        let Some(middle) = at((0.5 * (left + right), 0.5 * (top + bottom))) else { return true };
+        let all = 0..scene.objects.len();
+        let Some(middle) = at((0.5 * (left + right), 0.5 * (top + bottom))) else { return all.collect() };
         let corners: Option<Vec<Ray>> = corners.into_iter().map(at).collect();
-        let Some(corners) = corners else { return true };
-        scene.objects.iter().any(|object| may_meet(object, &middle, &corners))
+        let Some(corners) = corners else { return all.collect() };
+        all.filter(|k| may_meet(scene.objects[*k].shape.ball(), &middle, &corners)).collect()
     }
 }
 
 /// Returns whether a ball may reach into the beam about a ray that these corners bound.
-fn may_meet(object: &Object, middle: &Ray, corners: &[Ray]) -> bool {
+fn may_meet(sphere: &Sphere, middle: &Ray, corners: &[Ray]) -> bool {
     /// Room for tiles whose sides are not straight.
     const ROOM: f64 = 1.5;
-    let sphere = &object.sphere;
     let distance = (sphere.centre - middle.origin).length();
     if distance <= sphere.radius {
         return true;
@@ -88,14 +110,15 @@ mod tests {
 
     #[test]
     fn tiles_that_are_passed_over_show_nothing() {
-        let scene = Scene::spheres(5, Material::MIRROR).unwrap();
+        let scene = Scene::spheres(5, &Material::MIRROR).unwrap();
         for camera in cameras() {
-            let (passed, shown): (Vec<_>, Vec<_>) = Tile::all(&camera).partition(|tile| !tile.shows(&scene, &camera));
+            let (passed, shown): (Vec<_>, Vec<_>) =
+                Tile::all(&camera).partition(|tile| tile.things(&scene, &camera).is_empty());
             assert!(!passed.is_empty() && !shown.is_empty());
             for (i, j) in passed.iter().flat_map(|tile| tile.pixels()) {
                 for (x, y) in (0..25).map(|k| (f64::from(k % 5) / 4.0, f64::from(k / 5) / 4.0)) {
                     let Some(ray) = camera.ray(PixelPoint::new(i as f64 + x, j as f64 + y)) else { continue };
-                    let met = scene.objects.iter().any(|object| object.sphere.meet(&ray, 0.0).is_some());
+                    let met = scene.objects.iter().any(|object| object.shape.meet(&ray).is_some());
                     assert!(!met, "pixel {i}, {j}");
                 }
             }

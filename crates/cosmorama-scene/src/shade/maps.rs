@@ -11,7 +11,7 @@ use cosmorama::world::{Light, World};
 use super::Sky;
 use crate::error::SceneError;
 use crate::material::Material;
-use crate::scene::{Object, Scene};
+use crate::scene::Scene;
 
 /// Small panoramas of a world's light, filtered beforehand: what falls on matt surfaces, and what rough ones reflect
 /// (Greene 1986, section 7).
@@ -45,16 +45,14 @@ impl LightMaps {
         let Sky { world, light, unseen } = sky;
         let unseen = unseen.unwrap_or(Rgba::TRANSPARENT);
         scene.check()?;
-        let mut alphas: Vec<f64> = scene.objects.iter().filter_map(|object| rough_alpha(&object.material)).collect();
+        let mut alphas: Vec<f64> = scene.materials().filter_map(rough_alpha).collect();
         alphas.sort_by(f64::total_cmp);
         alphas.dedup();
-        let is_matt = scene.objects.iter().any(|object| object.material.diffuse > 0.0);
+        let is_matt = scene.materials().any(|material| material.diffuse > 0.0);
         light.check(world)?;
-        let mirrors = |object: &Object| {
-            let material = &object.material;
-            material.specular > 0.0 && !material.chrome && rough_alpha(material).is_none()
-        };
-        let cube = scene.objects.iter().any(mirrors).then(|| LightMap::cube(&sky)).flatten();
+        let mirrors =
+            |material: &Material| material.specular > 0.0 && !material.chrome && rough_alpha(material).is_none();
+        let cube = scene.materials().any(mirrors).then(|| LightMap::cube(&sky)).flatten();
         if !is_matt && alphas.is_empty() {
             return Ok(Self { diffuse: None, rough: Vec::new(), cube });
         }

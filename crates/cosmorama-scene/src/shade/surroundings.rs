@@ -7,7 +7,7 @@ use super::{Beam, Chrome, LightMaps, Sky};
 use crate::camera::Normal;
 use crate::error::SceneError;
 use crate::material::Material;
-use crate::scene::{Object, Scene};
+use crate::scene::Scene;
 
 /// A world and its maps of light, ready to be asked by footprints from any number of threads.
 pub struct Surroundings<'a> {
@@ -81,7 +81,7 @@ impl<'a> Surroundings<'a> {
 
     /// Checks that there are maps for all that a scene's materials ask for.
     pub(crate) fn check(&self, scene: &Scene) -> Result<(), SceneError> {
-        for Object { material, .. } in &scene.objects {
+        for material in scene.materials() {
             if material.diffuse > 0.0 && self.diffuse.is_none() {
                 return Err(SceneError::NoMap("matt things"));
             }

@@ -1,10 +1,86 @@
 //! Shapes that rays meet.
 
 mod edge;
+mod mesh;
 mod solid;
 mod sphere;
 
+use std::sync::Arc;
+
+use crate::camera::Ray;
+
 pub(crate) use edge::Edge;
+pub(crate) use mesh::Rim;
+pub use mesh::{Face, Mesh, MeshError, Normals};
 pub(crate) use solid::{Solid, Wall};
 pub(crate) use sphere::Meeting;
 pub use sphere::Sphere;
+
+/// Form of a thing.
+#[derive(Clone, Debug)]
+pub enum Shape {
+    /// A ball.
+    Sphere(Sphere),
+    /// Triangles.
+    Mesh(Arc<Mesh>),
+}
+
+/// A place where a ray meets a shape.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Hit {
+    pub(crate) distance: f64,
+    /// Number of the triangle.
+    pub(crate) face: usize,
+    /// Weights of the triangle's second and third corners.
+    pub(crate) weights: [f64; 2],
+}
+
+impl Shape {
+    /// Returns a ball around all of it.
+    pub fn ball(&self) -> &Sphere {
+        match self {
+            Self::Sphere(sphere) => sphere,
+            Self::Mesh(mesh) => mesh.ball(),
+        }
+    }
+
+    /// Returns it if it is a mesh.
+    pub(crate) fn mesh(&self) -> Option<&Mesh> {
+        match self {
+            Self::Sphere(_) => None,
+            Self::Mesh(mesh) => Some(mesh),
+        }
+    }
+
+    /// Returns the first place that a ray from outside meets.
+    pub(crate) fn meet(&self, ray: &Ray) -> Option<Hit> {
+        match self {
+            Self::Sphere(sphere) => sphere.meet(ray, 0.0).map(|distance| Hit { distance, face: 0, weights: [0.0; 2] }),
+            Self::Mesh(mesh) => mesh.meet(ray, 0.0),
+        }
+    }
+
+    /// Returns the surface where a ray meets it.
+    pub(crate) fn wall(&self, ray: &Ray, hit: &Hit) -> Wall {
+        match self {
+            Self::Sphere(sphere) => sphere.wall_at(ray, hit.distance),
+            Self::Mesh(mesh) => mesh.wall(ray, hit),
+        }
+    }
+
+    /// Returns the number of the piece of the surface where it is met.
+    pub(crate) fn piece(&self, hit: &Hit) -> u32 {
+        match self {
+            Self::Sphere(_) => 0,
+            Self::Mesh(mesh) => mesh.piece(hit.face),
+        }
+    }
+
+    /// Returns the shape as glass sees it.
+    pub(crate) fn solid(&self) -> &dyn Solid {
+        match self {
+            Self::Sphere(sphere) => sphere,
+            Self::Mesh(mesh) => mesh.as_ref(),
+        }
+    }
+}

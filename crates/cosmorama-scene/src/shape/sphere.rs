@@ -59,9 +59,13 @@ impl Sphere {
 
     /// Returns the surface where a ray meets it, beyond a distance; `None` if it misses.
     pub(crate) fn wall(&self, ray: &Ray, beyond: f64) -> Option<Wall> {
-        let distance = self.meet(ray, beyond)?;
+        Some(self.wall_at(ray, self.meet(ray, beyond)?))
+    }
+
+    /// Returns the surface where a ray meets it, at a distance.
+    pub(super) fn wall_at(&self, ray: &Ray, distance: f64) -> Wall {
         let met = ray.met(distance, self.normal_at(ray.at(distance)));
-        Some(Wall { met, normal: self.normal(&met), distance })
+        Wall { met, normal: self.normal(&met), distance, part: 0 }
     }
 
     /// Returns the outward unit normal at a point of the surface.

@@ -1,4 +1,6 @@
 //! Pictures of things against sums of many samples.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop where it stands")]
 
+mod meshes;
+mod models;
 mod spheres;

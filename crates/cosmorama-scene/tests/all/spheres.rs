@@ -32,7 +32,7 @@ fn camera() -> Camera {
 
 fn ball(diameter: f64, at: [f64; 2], material: Material) -> Scene {
     let sphere = Sphere::new(DVec3::new(at[0], at[1], 0.0), 0.5 * diameter);
-    Scene { objects: vec![Object { sphere, material }] }
+    Scene { objects: vec![Object::sphere(sphere, material)] }
 }
 
 fn made(scene: &Scene, sky: Sky, filter: FilterSettings) -> Image<Rgba> {
@@ -140,7 +140,7 @@ fn maps_of_another_scene_are_refused() {
     let maps = LightMaps::of(&Scene::sphere(Material::MIRROR), sky).unwrap();
     let surroundings = Surroundings::new(sky, &maps, FilterSettings::DEFAULT).unwrap();
     for material in [Material::MATTE, Material { alpha: 0.3, ..Material::MIRROR }] {
-        let made = picture(&Scene::sphere(material), &camera(), &surroundings, Background::World);
+        let made = picture(&Scene::sphere(material.clone()), &camera(), &surroundings, Background::World);
         assert!(matches!(made, Err(SceneError::NoMap(_))), "{material:?}");
     }
 }

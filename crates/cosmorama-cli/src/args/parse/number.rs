@@ -1,4 +1,5 @@
 use cosmorama::motion::Ramp;
+use cosmorama::sphere::Angle;
 use cosmorama_spec::{parse_degrees, parse_ramp};
 
 /// Parses an angle in degrees.
@@ -6,6 +7,12 @@ pub(crate) fn degrees(text: &str) -> Result<f64, String> {
     parse_degrees(text)
         .map(|angle| angle.degrees())
         .ok_or_else(|| "expected one angle in degrees, without a unit, as in 30 or -12.5".to_owned())
+}
+
+/// Parses an angle between faces, in degrees.
+pub(crate) fn crease(text: &str) -> Result<Angle, String> {
+    let angle = parse_degrees(text).filter(|angle| (0.0..=180.0).contains(&angle.degrees()));
+    angle.ok_or_else(|| "expected an angle in degrees from 0 to 180, as in 40".to_owned())
 }
 
 /// Parses an angle in degrees, or one that changes, as `--yaw` takes it.

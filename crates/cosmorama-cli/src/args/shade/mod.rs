@@ -4,12 +4,13 @@ mod names;
 
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueHint};
+use cosmorama::sphere::Angle;
 use cosmorama_io::FrameList;
 use cosmorama_spec::{DepthName, FilterName, KernelName, Missing, Size, Spec, TransferName};
 
 use super::convert::{LimitArgs, OutputArgs, frame_list};
 use super::parse::listed;
-use super::parse::number::{distance, factor};
+use super::parse::number::{crease, distance, factor};
 use super::with_examples;
 
 pub(crate) use names::{
@@ -17,8 +18,9 @@ pub(crate) use names::{
 };
 
 /// Example commands in its help.
-pub(super) const EXAMPLES: [&str; 6] = [
+pub(super) const EXAMPLES: [&str; 7] = [
     "cosmorama shade sky.hdr ball.png --object sphere",
+    "cosmorama shade sky.hdr teapot.png --object teapot.obj --size 1920x1080",
     "cosmorama shade 'faces/{face}.png' plate4.png --object plate4 --size 1024x512",
     "cosmorama shade sky.hdr row.exr --object spheres:7 --size 1400x300",
     "cosmorama shade sky.hdr matt.png --material matte --background transparent",
@@ -40,11 +42,15 @@ pub(crate) struct ShadeArgs {
     /// An image, by its extension
     #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
     pub(crate) output: String,
-    /// sphere (default), spheres:N, plate4
+    /// sphere (default), spheres:N, plate4 or a model: FILE.obj
     ///
     /// Spheres have a radius of 1. spheres:N is a row from rough to smooth; plate4 is the paper's: matt, mixed, mirror.
+    /// Models stand where their files place them.
     #[arg(long, value_name = "NAME", default_value = "sphere", value_parser = listed::object(), hide_possible_values = true, hide_default_value = true, help_heading = "Things")]
     pub(crate) object: ObjectName,
+    /// Make a model's normals smooth over edges up to this angle; 0: flat [default: the file's own, or 40]
+    #[arg(long, value_name = "DEGREES", value_parser = crease, allow_negative_numbers = true, hide_short_help = true, help_heading = "Things")]
+    pub(crate) crease: Option<Angle>,
     /// mirror (default), matte, mixed, glass or chrome
     #[arg(long, value_name = "NAME", default_value = "mirror", value_parser = listed::material(), hide_possible_values = true, hide_default_value = true, help_heading = "Things")]
     pub(crate) material: MaterialName,
@@ -125,7 +131,7 @@ pub(crate) struct ShadeArgs {
     /// Place of the eye [default: before the things, on +Z]
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, help_heading = "Picture")]
     pub(crate) eye: Option<Point>,
-    /// Point that the camera looks at [default: 0,0,0]
+    /// Point that the camera looks at [default: the middle of the things]
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, help_heading = "Picture")]
     pub(crate) target: Option<Point>,
     /// The picture's pixels: WxH, or the width [default: 640]

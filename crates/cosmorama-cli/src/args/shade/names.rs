@@ -1,26 +1,30 @@
+use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::ValueEnum;
 use cosmorama::lighting::{ColourTable, TableAngle};
 use cosmorama::raster::Rgba;
 use cosmorama::sphere::{Angle, Direction, Orientation};
-use cosmorama_scene::{Highlight, Material};
+use cosmorama_scene::{Highlight, MODEL_EXTENSIONS, Material};
 use cosmorama_spec::{Colour, Spec, colour_table_of_stops};
 
 /// Name of what stands under the world.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum ObjectName {
     Sphere,
     Spheres(usize),
     Plate4,
+    /// A model's file.
+    Model(PathBuf),
 }
 
 impl ObjectName {
     /// Names for help and completions.
-    pub(crate) const NAMES: [(&'static str, &'static str); 3] = [
+    pub(crate) const NAMES: [(&'static str, &'static str); 4] = [
         ("sphere", "a sphere of radius 1"),
         ("spheres:5", "a row of spheres from rough to smooth"),
         ("plate4", "the paper's three spheres: matt, mixed, mirror"),
+        ("model.obj", "a model's file"),
     ];
 }
 
@@ -31,17 +35,23 @@ impl FromStr for ObjectName {
         match text.split_once(':') {
             None if text == "sphere" => Ok(Self::Sphere),
             None if text == "plate4" => Ok(Self::Plate4),
+            _ if is_model(text) => Ok(Self::Model(text.into())),
             Some(("spheres", count)) => {
                 let count = count.parse().ok().filter(|count| *count > 0);
                 count.map(Self::Spheres).ok_or_else(|| "spheres needs a number, as in spheres:5".to_owned())
             }
-            _ => Err("expected sphere, spheres:N or plate4".to_owned()),
+            _ => Err(format!("expected sphere, spheres:N, plate4 or a file ({})", MODEL_EXTENSIONS.join(", "))),
         }
     }
 }
 
+fn is_model(text: &str) -> bool {
+    let text = text.to_lowercase();
+    MODEL_EXTENSIONS.iter().any(|extension| text.ends_with(extension))
+}
+
 /// Name of a material.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct MaterialName(pub(crate) Material);
 
 impl MaterialName {

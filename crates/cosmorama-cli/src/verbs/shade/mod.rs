@@ -1,6 +1,7 @@
 //! Things under a world.
 
 mod camera;
+mod model;
 mod output;
 mod world;
 
@@ -20,6 +21,7 @@ use cpu_time::ProcessTime;
 use serde_json::json;
 
 use self::camera::{Shot, shots};
+use self::model::model;
 use self::output::Output;
 use self::world::WorldInput;
 use super::prepare_output;
@@ -91,27 +93,31 @@ impl Clock {
 
 /// Returns the things that were asked for.
 fn scene(args: &ShadeArgs) -> Result<Scene> {
-    let asked = args.material.0;
+    let asked = &args.material.0;
     let material = Material {
         diffuse: args.dc.unwrap_or(asked.diffuse),
         specular: args.sc.unwrap_or(asked.specular),
         alpha: args.alpha.unwrap_or(asked.alpha),
         glass: glass(args, asked.glass)?,
-        ..asked
+        ..asked.clone()
     };
     material.check().map_err(|error| usage(format!("{}: {error}", option_of(&error))))?;
-    match args.object {
+    if args.crease.is_some() && !matches!(args.object, ObjectName::Model(_)) {
+        return Err(usage("--crease is for models; add --object FILE.obj"));
+    }
+    match &args.object {
         ObjectName::Sphere => Ok(Scene::sphere(material)),
         ObjectName::Spheres(_) if args.alpha.is_some() => {
             Err(usage("--alpha is for one sphere; those of spheres:N go from 1 to 0 by themselves"))
         }
         ObjectName::Spheres(count) => {
-            Scene::spheres(count, material).map_err(|error| usage(format!("--object: {error}")))
+            Scene::spheres(*count, &material).map_err(|error| usage(format!("--object: {error}")))
         }
         ObjectName::Plate4 if material != Material::MIRROR => Err(usage(
             "plate4 has materials of its own: leave out --material, --dc, --sc, --alpha and options of glass",
         )),
         ObjectName::Plate4 => Ok(Scene::plate4()),
+        ObjectName::Model(path) => model(path, material, args),
     }
 }
 

@@ -1,0 +1,60 @@
+use std::io;
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use crate::shape::MeshError;
+
+/// Reason why there is no model.
+#[derive(Debug, Error)]
+#[error("{}: {why}", .path.display())]
+pub struct ModelError {
+    /// The file.
+    pub path: PathBuf,
+    /// What is wrong with it.
+    pub why: ModelFault,
+}
+
+/// Fault of a model's file.
+#[derive(Debug, Error)]
+pub enum ModelFault {
+    /// It cannot be read.
+    #[error("cannot be read: {0}")]
+    Io(#[from] io::Error),
+    /// Its name does not tell what it is.
+    #[error("its name ends in no model's extension; expected {}", super::EXTENSIONS.join(", "))]
+    Extension,
+    /// A line of it is wrong.
+    #[error("line {line}: {why}")]
+    Line {
+        /// Number of the line, from 1.
+        line: usize,
+        /// What is wrong with it.
+        why: String,
+    },
+    /// It is not as its format says.
+    #[error("{0}")]
+    Format(String),
+    /// It needs what is not known.
+    #[error("it requires extensions of glTF that are not supported: {0}; export it without them")]
+    Required(String),
+    /// A piece of it is wrong.
+    #[error("{piece} {why}")]
+    Piece {
+        /// The piece.
+        piece: String,
+        /// What is wrong with it.
+        why: String,
+    },
+    /// Its triangles are no surface.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// It has more triangles than there is memory for.
+    #[error("it has {count} triangles, and there is memory for {most}")]
+    TooLarge {
+        /// Number of triangles.
+        count: usize,
+        /// Greatest number.
+        most: usize,
+    },
+}

@@ -1,0 +1,126 @@
+//! glTF 2.0, as text or binary.
+
+mod accessor;
+mod buffers;
+mod camera;
+mod primitive;
+
+use std::path::Path;
+
+use cosmorama::sphere::Angle;
+use glam::{DMat4, DVec4};
+use gltf::mesh::Mode;
+use gltf::{Document, Gltf, Node};
+
+use self::buffers::Buffers;
+use super::{Contents, ModelFault};
+use crate::material::Material;
+use crate::scene::Part;
+
+/// Extensions that a file may require.
+const SUPPORTED: [&str; 1] = ["KHR_mesh_quantization"];
+
+/// Reads the triangles and cameras of a file's scene.
+pub(super) fn read(path: &Path, most: usize) -> Result<Contents, ModelFault> {
+    let bytes = std::fs::read(path)?;
+    let Gltf { document, blob } =
+        Gltf::from_slice_without_validation(&bytes).map_err(|error| ModelFault::Format(error.to_string()))?;
+    let is_unknown = |extension: &&str| !SUPPORTED.contains(extension);
+    let required: Vec<String> = document.extensions_required().filter(is_unknown).map(str::to_owned).collect();
+    if !required.is_empty() {
+        return Err(ModelFault::Required(required.join(", ")));
+    }
+    check(&document)?;
+    let nodes = nodes(&document)?;
+    let count = nodes.iter().map(|(node, _)| triangles(node)).fold(0, usize::saturating_add);
+    if count > most {
+        return Err(ModelFault::TooLarge { count, most });
+    }
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let buffers = Buffers::read(&document, blob, folder, most)?;
+    // Normals that the file lacks are flat: section 3.7.2.1 of the format.
+    let mut contents = Contents { notes: notes(&document), ..Contents::new(Angle::from_degrees(0.0)) };
+    for (node, place) in &nodes {
+        contents.cameras.extend(camera::camera(node, place));
+        let Some(mesh) = node.mesh() else { continue };
+        let is_one = mesh.primitives().len() == 1;
+        for primitive in mesh.primitives() {
+            let part = contents.parts.len();
+            contents.faces.extend(primitive::faces(&primitive, (place, part), &buffers)?);
+            let material = primitive.material().name().filter(|_| !is_one);
+            let name = material
+                .or(node.name())
+                .or(mesh.name())
+                .map_or_else(|| format!("node {}", node.index()), str::to_owned);
+            contents.parts.push(Part { name, material: Material::MIRROR });
+        }
+    }
+    Ok(contents)
+}
+
+/// Checks that all that the file's pieces name is there. Rules of other formats of vertices are not those of quantised ones.
+fn check(document: &Document) -> Result<(), ModelFault> {
+    use gltf::json::validation::{Error, Validate};
+    let json = document.as_json();
+    let mut faults = Vec::new();
+    json.validate(json, gltf::json::Path::new, &mut |path, error| {
+        if error != Error::Unsupported {
+            faults.push(format!("{} {error}", path()));
+        }
+    });
+    match faults.into_iter().next() {
+        Some(fault) => Err(ModelFault::Format(fault)),
+        None => Ok(()),
+    }
+}
+
+/// Lists the nodes of the file's scene, with their places in it.
+fn nodes(document: &Document) -> Result<Vec<(Node<'_>, DMat4)>, ModelFault> {
+    let scene = document.default_scene().or_else(|| document.scenes().next());
+    let scene = scene.ok_or_else(|| ModelFault::Format("it has no scene".to_owned()))?;
+    let mut waiting: Vec<(Node, DMat4)> = scene.nodes().map(|node| (node, DMat4::IDENTITY)).collect();
+    let (mut seen, mut nodes) = (vec![false; document.nodes().len()], Vec::new());
+    while let Some((node, outer)) = waiting.pop() {
+        if std::mem::replace(&mut seen[node.index()], true) {
+            let why = "is below itself, or has two parents; expected a tree of nodes".to_owned();
+            return Err(ModelFault::Piece { piece: format!("node {}", node.index()), why });
+        }
+        let columns = node.transform().matrix().map(|column| DVec4::from_array(column.map(f64::from)));
+        let place = outer * DMat4::from_cols(columns[0], columns[1], columns[2], columns[3]);
+        waiting.extend(node.children().map(|child| (child, place)));
+        nodes.push((node, place));
+    }
+    nodes.sort_by_key(|(node, _)| node.index());
+    Ok(nodes)
+}
+
+/// Returns the number of triangles of a node.
+fn triangles(node: &Node) -> usize {
+    let count = |primitive: gltf::Primitive| {
+        let positions = primitive.get(&gltf::Semantic::Positions).map_or(0, |accessor| accessor.count());
+        let corners = primitive.indices().map_or(positions, |accessor| accessor.count());
+        match primitive.mode() {
+            Mode::Triangles => corners / 3,
+            Mode::TriangleStrip | Mode::TriangleFan => corners.saturating_sub(2),
+            Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip => 0,
+        }
+    };
+    node.mesh().map_or(0, |mesh| mesh.primitives().map(count).fold(0, usize::saturating_add))
+}
+
+/// Lists what a file has that is not shown.
+fn notes(document: &Document) -> Vec<String> {
+    let primitives = || document.meshes().flat_map(|mesh| mesh.primitives());
+    let is_line = |primitive: gltf::Primitive| {
+        !matches!(primitive.mode(), Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)
+    };
+    let is_clear = |primitive: gltf::Primitive| primitive.material().alpha_mode() != gltf::material::AlphaMode::Opaque;
+    let all = [
+        (document.skins().len() > 0, "skins are not applied: things are as they rest"),
+        (document.animations().len() > 0, "animations are not applied"),
+        (primitives().any(is_line), "points and lines are left out"),
+        (primitives().any(is_clear), "transparency of materials is not shown"),
+        (primitives().any(|primitive| primitive.morph_targets().len() > 0), "morph targets are not applied"),
+    ];
+    all.into_iter().filter(|(is_there, _)| *is_there).map(|(_, note)| note.to_owned()).collect()
+}

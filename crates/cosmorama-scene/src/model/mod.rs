@@ -1,0 +1,93 @@
+//! Models: things that files describe.
+
+mod camera;
+mod error;
+mod gltf;
+mod obj;
+
+use std::path::Path;
+use std::sync::Arc;
+
+use cosmorama::sphere::Angle;
+
+use crate::material::Material;
+use crate::scene::{Object, Part};
+use crate::shape::{Face, Mesh, Normals, Shape};
+
+pub use camera::{ModelCamera, ModelLens};
+pub use error::{ModelError, ModelFault};
+
+/// Extensions of the files that are read.
+pub const EXTENSIONS: [&str; 3] = [".obj", ".gltf", ".glb"];
+
+/// A thing that a file describes.
+#[derive(Clone, Debug)]
+pub struct Model {
+    /// The thing: a mesh, and the parts that the file names.
+    pub object: Object,
+    /// The file's own cameras.
+    pub cameras: Vec<ModelCamera>,
+    /// What was left out, to be told.
+    pub notes: Vec<String>,
+}
+
+/// What is made of a file.
+#[derive(Clone, Debug)]
+pub struct ModelSettings {
+    /// Greatest angle between faces over which normals are smooth; `None` takes the file's own normals, and
+    /// makes those that it lacks.
+    pub crease: Option<Angle>,
+    /// Material of all parts; `None` takes the file's own.
+    pub material: Option<Material>,
+    /// Greatest number of triangles.
+    pub most: usize,
+}
+
+/// Triangles and parts of a file.
+#[derive(Debug)]
+struct Contents {
+    faces: Vec<Face>,
+    parts: Vec<Part>,
+    cameras: Vec<ModelCamera>,
+    notes: Vec<String>,
+    /// Crease of normals that the file lacks.
+    crease: Angle,
+}
+
+impl Contents {
+    /// Returns a file of nothing.
+    fn new(crease: Angle) -> Self {
+        Self { faces: Vec::new(), parts: Vec::new(), cameras: Vec::new(), notes: Vec::new(), crease }
+    }
+}
+
+impl Model {
+    /// Memory of a triangle at most, while it is read.
+    pub const TRIANGLE_BYTES: usize = 1200;
+
+    /// Reads a model.
+    ///
+    /// # Errors
+    /// When the file cannot be read, is not as its extension says, or describes no surface.
+    pub fn read(path: &Path, settings: &ModelSettings) -> Result<Self, ModelError> {
+        read(path, settings).map_err(|why| ModelError { path: path.to_owned(), why })
+    }
+}
+
+fn read(path: &Path, settings: &ModelSettings) -> Result<Model, ModelFault> {
+    let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+    let Contents { faces, mut parts, cameras, mut notes, crease } = match extension.as_deref() {
+        Some("obj") => obj::read(path, settings.most)?,
+        Some("gltf" | "glb") => gltf::read(path, settings.most)?,
+        _ => return Err(ModelFault::Extension),
+    };
+    let normals = Normals { kept: settings.crease.is_none(), crease: settings.crease.unwrap_or(crease) };
+    let mesh = Mesh::new(faces, normals)?;
+    if mesh.skipped() > 0 {
+        notes.push(format!("{} triangles without area are left out", mesh.skipped()));
+    }
+    if let Some(material) = &settings.material {
+        parts.iter_mut().for_each(|part| part.material = material.clone());
+    }
+    Ok(Model { object: Object { shape: Shape::Mesh(Arc::new(mesh)), parts }, cameras, notes })
+}

@@ -1,0 +1,166 @@
+//! Wavefront OBJ. Read here, since errors then name the line, and nothing in a file can stop the program.
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use cosmorama::sphere::Angle;
+use glam::{DVec2, DVec3};
+
+use super::{Contents, ModelFault};
+use crate::material::Material;
+use crate::scene::Part;
+use crate::shape::Face;
+
+/// Crease of normals that a file lacks.
+const CREASE: Angle = Angle::from_degrees(40.0);
+
+/// What a file has said so far.
+struct Reader {
+    points: Vec<DVec3>,
+    normals: Vec<DVec3>,
+    uvs: Vec<DVec2>,
+    /// Name of the group or object that lines are in.
+    group: String,
+    /// Name of the material, if any.
+    material: Option<String>,
+    /// Parts by group and material.
+    parts: HashMap<(String, Option<String>), usize>,
+    contents: Contents,
+}
+
+/// A corner of a face: indices of its point, texture coordinates and normal.
+type Corner = (usize, Option<usize>, Option<usize>);
+
+/// Reads the triangles of a file; other polygons are cut into triangles.
+pub(super) fn read(path: &Path, most: usize) -> Result<Contents, ModelFault> {
+    let text = std::fs::read(path)?;
+    let text = String::from_utf8_lossy(&text);
+    let count = text.lines().map(triangles).sum();
+    if count > most {
+        return Err(ModelFault::TooLarge { count, most });
+    }
+    let mut reader = Reader::new();
+    for (number, line) in text.lines().enumerate() {
+        reader.line(line).map_err(|why| ModelFault::Line { line: number + 1, why })?;
+    }
+    reader.name_parts();
+    Ok(reader.contents)
+}
+
+/// Returns the number of triangles that a line makes.
+fn triangles(line: &str) -> usize {
+    let mut words = line.split_ascii_whitespace();
+    if words.next() == Some("f") { words.count().saturating_sub(2) } else { 0 }
+}
+
+impl Reader {
+    fn new() -> Self {
+        Self {
+            points: Vec::new(),
+            normals: Vec::new(),
+            uvs: Vec::new(),
+            group: String::new(),
+            material: None,
+            parts: HashMap::new(),
+            contents: Contents::new(CREASE),
+        }
+    }
+
+    fn line(&mut self, line: &str) -> Result<(), String> {
+        let mut words = line.split_ascii_whitespace();
+        let Some(key) = words.next() else { return Ok(()) };
+        let rest = line.trim_start()[key.len()..].trim();
+        match key {
+            "v" => self.points.push(numbers(rest)?.into()),
+            "vn" => self.normals.push(numbers(rest)?.into()),
+            // Rows of textures count from the top.
+            "vt" => self.uvs.push(numbers(rest).map(|[u, v]| DVec2::new(u, 1.0 - v))?),
+            "f" => return self.face(rest),
+            "g" | "o" => self.group = rest.to_owned(),
+            "usemtl" => self.material = Some(rest.to_owned()),
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn face(&mut self, text: &str) -> Result<(), String> {
+        let corners =
+            text.split_ascii_whitespace().map(|word| self.corner(word)).collect::<Result<Vec<Corner>, _>>()?;
+        let [first, others @ ..] = corners.as_slice() else { return Err("the face has no corner".to_owned()) };
+        if others.len() < 2 {
+            return Err(format!("the face has {} corners; expected at least 3", corners.len()));
+        }
+        let part = self.part();
+        for pair in others.windows(2) {
+            let face = [*first, pair[0], pair[1]];
+            let normals = face.map(|corner| corner.2.map(|index| self.normals[index]));
+            let uvs = face.map(|corner| corner.1.map(|index| self.uvs[index]));
+            self.contents.faces.push(Face {
+                corners: face.map(|corner| self.points[corner.0]),
+                normals: all(normals),
+                uvs: all(uvs),
+                tangents: None,
+                part,
+            });
+        }
+        Ok(())
+    }
+
+    /// Reads a corner: `point`, `point/uv`, `point//normal` or `point/uv/normal`.
+    fn corner(&self, word: &str) -> Result<Corner, String> {
+        let mut fields = word.split('/');
+        let mut index = |what: &str, count: usize| match fields.next() {
+            None | Some("") => Ok(None),
+            Some(text) => index(text, count).map(Some).map_err(|why| format!("{what} '{text}' {why}")),
+        };
+        let point = index("vertex", self.points.len())?;
+        let uv = index("texture coordinates", self.uvs.len())?;
+        let normal = index("normal", self.normals.len())?;
+        let point = point.ok_or_else(|| format!("'{word}' names no vertex"))?;
+        Ok((point, uv, normal))
+    }
+
+    /// Returns the part that the lines are in.
+    fn part(&mut self) -> usize {
+        let count = self.parts.len();
+        let part = *self.parts.entry((self.group.clone(), self.material.clone())).or_insert(count);
+        if part == count {
+            self.contents.parts.push(Part { name: self.group.clone(), material: Material::MIRROR });
+        }
+        part
+    }
+
+    /// Names parts by their materials where their groups do not tell them apart.
+    fn name_parts(&mut self) {
+        let groups: Vec<&String> = self.parts.keys().map(|(group, _)| group).collect();
+        for ((group, material), part) in &self.parts {
+            let is_shared = group.is_empty() || groups.iter().filter(|other| **other == group).count() > 1;
+            if let (true, Some(material)) = (is_shared, material) {
+                self.contents.parts[*part].name = material.clone();
+            }
+        }
+    }
+}
+
+/// Reads the first numbers of a line.
+fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
+    let mut words = text.split_ascii_whitespace();
+    let mut numbers = [0.0; N];
+    for number in &mut numbers {
+        let word = words.next().ok_or_else(|| format!("expected {N} numbers, but found '{text}'"))?;
+        *number = word.parse().map_err(|_| format!("expected a number, but found '{word}'"))?;
+    }
+    Ok(numbers)
+}
+
+/// Reads an index: from 1, or from −1 backwards.
+fn index(text: &str, count: usize) -> Result<usize, String> {
+    let number: i64 = text.parse().map_err(|_| "is not a whole number".to_owned())?;
+    let index = if number > 0 { number - 1 } else { count as i64 + number };
+    let index = usize::try_from(index).ok().filter(|index| number != 0 && *index < count);
+    index.ok_or_else(|| format!("is not there: {count} are before this line"))
+}
+
+fn all<T: Copy>(corners: [Option<T>; 3]) -> Option<[T; 3]> {
+    Some([corners[0]?, corners[1]?, corners[2]?])
+}

@@ -1,0 +1,136 @@
+//! Triangle meshes.
+
+mod build;
+mod normals;
+mod rim;
+mod tree;
+
+use glam::DVec3;
+
+use self::rim::Rims;
+use self::tree::Tree;
+use super::{Hit, Solid, Sphere, Wall};
+use crate::camera::{Normal, Ray};
+
+pub use build::{Face, MeshError, Normals};
+pub(crate) use rim::Rim;
+
+/// A surface of triangles with smooth normals.
+#[derive(Clone, Debug)]
+pub struct Mesh {
+    tree: Tree,
+    skins: Vec<Skin>,
+    rims: Rims,
+    skipped: usize,
+    /// Its volume; negative if the corners of triangles are clockwise from outside.
+    volume: f64,
+}
+
+/// Surface of a triangle.
+#[derive(Clone, Copy, Debug)]
+struct Skin {
+    /// Unit normals at the corners.
+    normals: [DVec3; 3],
+    /// Index of the part of the object.
+    part: u32,
+    /// Number of the piece of the surface that it belongs to: all triangles that hang together.
+    piece: u32,
+}
+
+/// Part of the ball around a mesh by which a ray leaves the place where it starts.
+const AWAY: f64 = 1e-9;
+
+impl Mesh {
+    /// Returns the number of triangles.
+    pub fn count(&self) -> usize {
+        self.skins.len()
+    }
+
+    /// Returns the number of triangles without area, which were left out.
+    pub fn skipped(&self) -> usize {
+        self.skipped
+    }
+
+    /// Returns a ball around all of it.
+    pub fn ball(&self) -> &Sphere {
+        self.tree.ball()
+    }
+
+    /// Returns an edge that does not join two triangles, if there is one: the mesh then holds nothing.
+    pub fn hole(&self) -> Option<[DVec3; 2]> {
+        self.rims.hole()
+    }
+
+    /// Returns the number of edges.
+    pub(crate) fn rim_count(&self) -> usize {
+        self.rims.count()
+    }
+
+    /// Returns an edge, by its number.
+    pub(crate) fn rim(&self, index: usize) -> Rim {
+        self.rims.get(index)
+    }
+
+    /// Returns the normal of a triangle's plane, by the order of its corners, and one of them. Its length is twice the area.
+    pub(crate) fn plane(&self, face: usize) -> (DVec3, DVec3) {
+        let [a, b, c] = *self.tree.corners(face);
+        ((b - a).cross(c - a), a)
+    }
+
+    /// Returns the first triangle that a ray meets beyond a distance.
+    pub(crate) fn meet(&self, ray: &Ray, beyond: f64) -> Option<Hit> {
+        self.tree.meet(ray, beyond)
+    }
+
+    /// Returns the number of the piece of the surface that a triangle belongs to.
+    pub(crate) fn piece(&self, face: usize) -> u32 {
+        self.skins[face].piece
+    }
+
+    fn away(&self) -> f64 {
+        AWAY * self.ball().radius
+    }
+
+    /// Returns the surface where a ray meets a triangle.
+    ///
+    /// The normal is interpolated, and turns over the pixel as its corners' weights change (Igehy 1999, section 3.2). It is
+    /// that of the side which the ray comes from.
+    pub(crate) fn wall(&self, ray: &Ray, hit: &Hit) -> Wall {
+        let [a, b, c] = *self.tree.corners(hit.face);
+        let sides = [b - a, c - a];
+        let plane = sides[0].cross(sides[1]);
+        let outward = if plane.dot(ray.direction) > 0.0 { -plane } else { plane }.normalize();
+        let met = ray.met(hit.distance, outward);
+        let squared = plane.length_squared();
+        let turn = |moved: DVec3| [moved.cross(sides[1]), sides[0].cross(moved)].map(|part| part.dot(plane) / squared);
+        let turns = [met.dx.origin, met.dy.origin].map(turn);
+        let skin = &self.skins[hit.face];
+        let normal = interpolated(&skin.normals, hit.weights, turns);
+        let normal = if normal.unit.dot(outward) < 0.0 { normal.reversed() } else { normal };
+        Wall { met, normal, distance: hit.distance, part: skin.part as usize }
+    }
+}
+
+/// Returns the unit normal between those of corners, with its changes.
+fn interpolated(normals: &[DVec3; 3], weights: [f64; 2], turns: [[f64; 2]; 2]) -> Normal {
+    let sides = [normals[1] - normals[0], normals[2] - normals[0]];
+    let between = |[v, w]: [f64; 2]| sides[0] * v + sides[1] * w;
+    let sum = normals[0] + between(weights);
+    let length = sum.length();
+    let unit = sum / length;
+    let [dx, dy] = turns.map(between).map(|change| (change - unit * unit.dot(change)) / length);
+    Normal { unit, dx, dy }
+}
+
+impl Solid for Mesh {
+    fn next(&self, ray: &Ray) -> Option<Wall> {
+        self.meet(ray, self.away()).map(|hit| self.wall(ray, &hit))
+    }
+
+    /// Where smooth normals send a ray from outside into the surface, it meets that from behind: this is not counted.
+    fn again(&self, ray: &Ray) -> Option<Wall> {
+        let hit = self.meet(ray, self.away())?;
+        let is_from_outside = self.plane(hit.face).0.dot(ray.direction) * self.volume < 0.0;
+        is_from_outside.then(|| self.wall(ray, &hit))
+    }
+}
