@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use cosmorama::camera::PixelPoint;
 use cosmorama_scene::{Material, Model, ModelSettings, Shape};
 
 const SETTINGS: ModelSettings = ModelSettings { crease: None, material: None, most: 1_000_000 };
@@ -11,8 +12,12 @@ struct File(PathBuf);
 
 impl File {
     fn new(name: &str, text: &str) -> Self {
+        Self::write(name, text.as_bytes())
+    }
+
+    fn write(name: &str, bytes: &[u8]) -> Self {
         let path = std::env::temp_dir().join(format!("cosmorama-{}-{name}", std::process::id()));
-        std::fs::write(&path, text).unwrap();
+        std::fs::write(&path, bytes).unwrap();
         Self(path)
     }
 
@@ -77,4 +82,94 @@ fn more_triangles_than_fit_are_refused_before_they_are_made() {
     let file = File::new("large.obj", &format!("{SQUARE}{}", "f 1 2 3 4\n".repeat(600_000)));
     let error = file.read().unwrap_err();
     assert!(error.contains("1200000 triangles"), "{error}");
+}
+
+/// Four corners of a square of side 1, as numbers of a buffer, and the indices of a strip.
+fn square_bytes() -> Vec<u8> {
+    let corners = [[0.0f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]];
+    let numbers = corners.iter().flatten().flat_map(|number| number.to_le_bytes());
+    numbers.chain([0u8, 1, 2, 3]).collect()
+}
+
+/// A glTF of two squares, the second mirrored and under a node that moves it, and of a camera.
+const SQUARES: &str = r#"{
+  "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 3]}],
+  "nodes": [
+    {"name": "one", "mesh": 0},
+    {"translation": [5, 0, 0], "children": [2]},
+    {"name": "two", "mesh": 0, "scale": [-2, 1, 1]},
+    {"name": "eye", "camera": 0, "translation": [0.5, 0.5, 9]}
+  ],
+  "cameras": [{"type": "perspective", "perspective": {"yfov": 0.5, "znear": 0.1, "aspectRatio": 2}}],
+  "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "mode": 5}]}],
+  "accessors": [
+    {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+    {"bufferView": 1, "componentType": 5121, "count": 4, "type": "SCALAR"}
+  ],
+  "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 4}],
+  "buffers": [{"uri": "NAME%2Ebin", "byteLength": 52}]
+}"#;
+
+/// A glTF and its buffer, beside it.
+struct Gltf {
+    file: File,
+    _buffer: File,
+}
+
+impl Gltf {
+    fn new(name: &str, text: &str) -> Self {
+        let buffer = File::write(&format!("{name}.bin"), &square_bytes());
+        let uri = buffer.0.file_name().unwrap().to_string_lossy().trim_end_matches(".bin").to_owned();
+        Self { file: File::new(&format!("{name}.gltf"), &text.replace("NAME", &uri)), _buffer: buffer }
+    }
+}
+
+#[test]
+fn gltf_files_are_read_with_their_nodes_and_cameras() {
+    let gltf = Gltf::new("squares", SQUARES);
+    let model = gltf.file.read().unwrap();
+    let names: Vec<&str> = model.object.parts.iter().map(|part| part.name.as_str()).collect();
+    assert_eq!(names, ["one", "two"]);
+    let Shape::Mesh(mesh) = &model.object.shape else { panic!() };
+    assert_eq!((mesh.count(), mesh.skipped()), (4, 0));
+    // From 0 to 1, and from 3 to 5.
+    assert_eq!(mesh.ball().centre.to_array(), [2.5, 0.5, 0.0]);
+    assert!(mesh.hole().is_some());
+    let [camera] = model.cameras.as_slice() else { panic!("{:?}", model.cameras) };
+    assert_eq!((camera.name.as_str(), camera.rows(640)), ("eye", 320));
+    let ray = camera.camera([640, 320]).unwrap().ray(PixelPoint::new(320.0, 0.0)).unwrap();
+    assert_eq!(ray.origin.to_array(), [0.5, 0.5, 9.0]);
+    assert!((ray.direction.y - 0.25f64.sin()).abs() < 1e-6 && ray.direction.z < 0.0, "{:?}", ray.direction);
+}
+
+#[test]
+fn faults_of_gltf_files_are_named() {
+    let cases = [
+        (
+            r#""asset""#,
+            r#""extensionsRequired": ["KHR_draco_mesh_compression"], "asset""#,
+            "KHR_draco_mesh_compression",
+        ),
+        (r#""scale": [-2, 1, 1]"#, r#""children": [1]"#, "node 1 is below itself"),
+        (r#"[0, 1, 3]"#, r#"[0, 1, 2]"#, "node 2 is below itself, or has two parents"),
+        (r#"[0, 1, 3]"#, r#"[0, 1, 7]"#, "nodes"),
+        ("NAME%2Ebin", "nothing.bin", "buffer 0 cannot be read"),
+        ("NAME%2Ebin", "https://example.org/x.bin", "buffer 0 is at 'https"),
+        ("NAME%2Ebin", "data:;base64,AAAA", "buffer 0 has 3 bytes; expected 52"),
+        (r#""componentType": 5121, "count": 4"#, r#""componentType": 5123, "count": 2"#, "accessor 1 names vertex 256"),
+        (r#""componentType": 5121, "count": 4"#, r#""componentType": 5121, "count": 5"#, "accessor 1 has 5 elements"),
+        (r#""byteOffset": 48"#, r#""byteOffset": 49"#, "view 1"),
+        (r#""count": 4, "type": "SCALAR""#, r#""count": 4000000000, "type": "SCALAR""#, "7999999996 triangles"),
+        (r#""count": 4, "type": "VEC3""#, r#""count": 4000000000, "type": "VEC3""#, "triangles"),
+        (r#""type": "SCALAR""#, r#""type": "VEC2""#, "accessor 1 has elements of 2 numbers"),
+        (r#""scene": 0, "scenes": [{"nodes": [0, 1, 3]}],"#, "", "no scene"),
+        (r#""mode": 5"#, r#""mode": 0"#, "no triangle"),
+        ("{", "", "line 1"),
+    ];
+    for (k, (from, to, says)) in cases.into_iter().enumerate() {
+        let error = Gltf::new(&format!("fault{k}"), &SQUARES.replacen(from, to, 1)).file.read().unwrap_err();
+        assert!(error.contains(says) && error.contains(".gltf"), "{to}: {error}");
+    }
+    let error = File::new("empty.glb", "").read().unwrap_err();
+    assert!(error.contains("empty.glb"), "{error}");
 }

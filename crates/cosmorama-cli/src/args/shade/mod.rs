@@ -42,7 +42,7 @@ pub(crate) struct ShadeArgs {
     /// An image, by its extension
     #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
     pub(crate) output: String,
-    /// sphere (default), spheres:N, plate4 or a model: FILE.obj
+    /// sphere (default), spheres:N, plate4 or a model: FILE.obj, .gltf, .glb
     ///
     /// Spheres have a radius of 1. spheres:N is a row from rough to smooth; plate4 is the paper's: matt, mixed, mirror.
     /// Models stand where their files place them.

@@ -103,7 +103,7 @@ fn scene(args: &ShadeArgs) -> Result<Scene> {
     };
     material.check().map_err(|error| usage(format!("{}: {error}", option_of(&error))))?;
     if args.crease.is_some() && !matches!(args.object, ObjectName::Model(_)) {
-        return Err(usage("--crease is for models; add --object FILE.obj"));
+        return Err(usage("--crease is for models; name one, as in --object teapot.obj"));
     }
     match &args.object {
         ObjectName::Sphere => Ok(Scene::sphere(material)),
