@@ -162,7 +162,7 @@ fn what_cannot_be_is_refused() {
         (&["ball.png", "--material", "glass", "--alpha", "2"], &["--alpha: a roughness α of 2"]),
         (&["ball.png", "--material", "glass", "--absorption", "-1"], &["--absorption: an absorption of -1"]),
         (&["ball.png", "--object", "plate4", "--material", "matte"], &["plate4", "leave out --material"]),
-        (&["ball.png", "--object", "teapot"], &["sphere, spheres:N or plate4"]),
+        (&["ball.png", "--object", "teapot"], &["sphere, spheres:N, plate4 or a file (.obj"]),
         (&["ball.png", "--object", "spheres:0"], &["spheres:5"]),
         (&["ball.png", "--camera", "orthographic:height=0"], &["height=H"]),
         (&["ball.png", "--camera", "cube"], &["--camera", "layout=3x2"]),
