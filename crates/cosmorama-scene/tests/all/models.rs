@@ -164,7 +164,7 @@ fn faults_of_gltf_files_are_named() {
         (r#""type": "SCALAR""#, r#""type": "VEC2""#, "accessor 1 has elements of 2 numbers"),
         (r#""scene": 0, "scenes": [{"nodes": [0, 1, 3]}],"#, "", "no scene"),
         (r#""mode": 5"#, r#""mode": 0"#, "no triangle"),
-        ("{", "", "line 1"),
+        ("{", "", "line 2"),
     ];
     for (k, (from, to, says)) in cases.into_iter().enumerate() {
         let error = Gltf::new(&format!("fault{k}"), &SQUARES.replacen(from, to, 1)).file.read().unwrap_err();
