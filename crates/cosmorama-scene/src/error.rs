@@ -46,6 +46,14 @@ pub enum SceneError {
         .0[0], .0[1]
     )]
     Open([[f64; 3]; 2]),
+    /// A thing stands under a world that there is none of.
+    #[error("a thing stands under world number {number}, but there are {count}, from 0 on")]
+    NoWorld {
+        /// The world's number.
+        number: usize,
+        /// Number of worlds.
+        count: usize,
+    },
     /// A row of spheres without spheres, or with too many.
     #[error("a row of {count} spheres: expected 1 to {most}")]
     Count {

@@ -16,9 +16,9 @@
 //! let camera = Camera::lens(place, Placement::new(lens).view(32, 32)?)?;
 //!
 //! let sky = Sky::new(&world, &light);
-//! let maps = LightMaps::of(&scene, sky)?;
+//! let maps = LightMaps::of(&scene, 0, sky)?;
 //! let surroundings = Surroundings::new(sky, &maps, FilterSettings::DEFAULT)?;
-//! let image = picture(&scene, &camera, &surroundings, Background::Colour(Rgba::TRANSPARENT))?;
+//! let image = picture(&scene, &camera, &[surroundings], Background::Colour(Rgba::TRANSPARENT))?;
 //! // A mirror has the colour of a world that has but one; beside it there is nothing.
 //! assert!((image.get(16, 16).0[1] - 0.25).abs() < 1e-5);
 //! assert_eq!(*image.get(0, 0), Rgba::TRANSPARENT);
@@ -32,14 +32,16 @@ mod material;
 mod model;
 mod picture;
 mod scene;
+mod scene_file;
 mod shade;
 mod shape;
 
 pub use camera::{Camera, Normal, Orthographic, Place, Ray, RayChange};
 pub use error::SceneError;
-pub use material::{Glass, Material, MaterialError, Refraction};
+pub use material::{Finish, Glass, Material, MaterialError, NormalMap, Paint, Refraction};
 pub use model::{EXTENSIONS as MODEL_EXTENSIONS, Model, ModelCamera, ModelError, ModelFault, ModelLens, ModelSettings};
 pub use picture::{Background, picture};
 pub use scene::{Object, Part, Scene};
-pub use shade::{Chrome, Highlight, LightMaps, Sky, Surroundings};
+pub use scene_file::{FileCamera, Located, NamedWorld, PictureKind, SceneFile, SceneFileError};
+pub use shade::{Chrome, Highlight, LightMaps, Proxy, Sky, Surroundings, Walls};
 pub use shape::{Face, Mesh, MeshError, Normals, Shape, Sphere};

@@ -27,16 +27,31 @@ pub struct Object {
 /// A part of a thing's surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
-    /// Its name.
+    /// Its name, by which it may be given a world of its own.
     pub name: String,
     /// Its material.
     pub material: Material,
+    /// Number of the world that it stands under.
+    pub world: usize,
 }
 
 impl Object {
     /// Returns a sphere of one material.
     pub fn sphere(sphere: Sphere, material: Material) -> Self {
-        Self { shape: Shape::Sphere(sphere), parts: vec![Part { name: "sphere".to_owned(), material }] }
+        Self { shape: Shape::Sphere(sphere), parts: vec![Part { name: "sphere".to_owned(), material, world: 0 }] }
+    }
+}
+
+impl Object {
+    /// Returns the name of a thing that has none: what it is, and its number from 1.
+    pub(crate) fn numbered(what: &str, index: usize) -> String {
+        format!("{what}{}", index + 1)
+    }
+
+    /// Returns the thing with one name for all parts.
+    pub(crate) fn named(mut self, name: String) -> Self {
+        self.parts.iter_mut().for_each(|part| part.name.clone_from(&name));
+        self
     }
 }
 
@@ -68,8 +83,7 @@ impl Scene {
         }
         // Evenly spaced in the root of α, which is what eyes take for roughness.
         let roughness = |k: usize| 1.0 - k as f64 / (count - 1).max(1) as f64;
-        let materials: Vec<Material> =
-            (0..count).map(|k| Material { alpha: roughness(k).powi(2), ..material.clone() }).collect();
+        let materials: Vec<Material> = (0..count).map(|k| material.with_alpha(roughness(k).powi(2))).collect();
         Ok(Self::row(&materials))
     }
 
@@ -77,9 +91,15 @@ impl Scene {
     pub fn row(materials: &[Material]) -> Self {
         let first = -0.5 * PITCH * materials.len().saturating_sub(1) as f64;
         let object = |(k, material): (usize, &Material)| {
-            Object::sphere(Sphere::new(DVec3::X * (first + PITCH * k as f64), 1.0), material.clone())
+            let sphere = Sphere::new(DVec3::X * (first + PITCH * k as f64), 1.0);
+            Object::sphere(sphere, material.clone()).named(Object::numbered("sphere", k))
         };
         Self { objects: materials.iter().enumerate().map(object).collect() }
+    }
+
+    /// Lists the materials of what stands under a world.
+    pub(crate) fn materials_under(&self, world: usize) -> impl Iterator<Item = &Material> + Clone {
+        self.parts().filter(move |part| part.world == world).map(|part| &part.material)
     }
 
     /// Checks that all materials are in range.
@@ -96,9 +116,14 @@ impl Scene {
         Ok(())
     }
 
-    /// Lists the materials of all parts.
-    pub(crate) fn materials(&self) -> impl Iterator<Item = &Material> {
-        self.objects.iter().flat_map(|object| &object.parts).map(|part| &part.material)
+    /// Lists the parts of all things.
+    pub fn parts(&self) -> impl Iterator<Item = &Part> + Clone {
+        self.objects.iter().flat_map(|object| &object.parts)
+    }
+
+    /// Lists the parts of all things, to be changed.
+    pub fn parts_mut(&mut self) -> impl Iterator<Item = &mut Part> {
+        self.objects.iter_mut().flat_map(|object| &mut object.parts)
     }
 
     /// Lists balls that hold everything.
@@ -128,7 +153,7 @@ impl Scene {
         // A ball that touches a side of the field of view from within.
         let away = |aside: f64, radius: f64, half: f64| (aside.abs() * half.cos() + radius) / half.sin();
         let middle = self.middle();
-        let distance = |Sphere { centre, radius }: &Sphere| {
+        let distance = |Sphere { centre, radius, .. }: &Sphere| {
             let offset = *centre - middle;
             away(offset.x, *radius, across).max(away(offset.y, *radius, down)) + offset.z
         };
@@ -144,7 +169,7 @@ impl Scene {
         const AWAY: f64 = 4.0;
         let aspect = pixels[0] as f64 / pixels[1].max(1) as f64;
         let middle = self.middle();
-        let half = |Sphere { centre, radius }: &Sphere| {
+        let half = |Sphere { centre, radius, .. }: &Sphere| {
             let offset = *centre - middle;
             (offset.y.abs() + radius).max((offset.x.abs() + radius) / aspect)
         };

@@ -26,7 +26,7 @@ pub(crate) use light::{
     BrdfArgs, DiffuseArgs, HarmonicsArgs, LightArgs, LightVerb, MapArgs, Method, SpecularArgs, SunArgs, TableArgs, Unit,
 };
 pub(crate) use parse::progress::ProgressStyle;
-pub(crate) use shade::{BackgroundName, CameraName, MaterialName, ObjectName, RefractName, ShadeArgs};
+pub(crate) use shade::{BackgroundName, CameraName, MaterialName, ObjectName, Point, RefractName, ShadeArgs};
 
 /// Example commands in the program's own help.
 const EXAMPLES: [&str; 3] = [

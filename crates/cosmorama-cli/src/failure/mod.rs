@@ -34,7 +34,7 @@ fn is_usage(error: &anyhow::Error) -> bool {
 }
 
 /// Returns an error and its causes on one line.
-fn message(error: &anyhow::Error) -> String {
+pub(crate) fn message(error: &anyhow::Error) -> String {
     if let Some(error) = error.downcast_ref::<ConvertError>() {
         return in_options(&error.message());
     }

@@ -5,8 +5,8 @@ mod place;
 pub(crate) mod ray;
 
 use cosmorama::camera::{PixelPoint, View};
-use cosmorama::sphere::Direction;
-use glam::DVec3;
+use cosmorama::sphere::{Direction, Orientation};
+use glam::{DMat3, DQuat, DVec3};
 
 use crate::error::SceneError;
 
@@ -36,6 +36,18 @@ impl Camera {
     pub fn lens(place: Place, view: View) -> Result<Self, SceneError> {
         let orientation = view.orientation.within(place.orientation()?);
         Ok(Self::Lens { eye: place.eye, view: Box::new(View { orientation, ..view }) })
+    }
+
+    /// Returns the camera in another frame.
+    pub(crate) fn turned(&self, turn: &DMat3) -> Self {
+        match self {
+            Self::Lens { eye, view } => {
+                let outer = Orientation::from_rotation(DQuat::from_mat3(turn));
+                let orientation = view.orientation.within(outer);
+                Self::Lens { eye: *turn * *eye, view: Box::new(View { orientation, ..(**view).clone() }) }
+            }
+            Self::Orthographic(camera) => Self::Orthographic(camera.turned(turn)),
+        }
     }
 
     /// Returns the number of columns.

@@ -1,6 +1,6 @@
 use cosmorama::camera::PixelPoint;
 use cosmorama::sphere::{Direction, Orientation};
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::{Place, Ray, RayChange};
 use crate::error::SceneError;
@@ -52,6 +52,12 @@ impl Orthographic {
             width: pixels[0],
             height: pixels[1],
         })
+    }
+
+    /// Returns the camera in another frame.
+    pub(super) fn turned(&self, turn: &DMat3) -> Self {
+        let [eye, right, up, forward] = [self.eye, self.right, self.up, self.forward].map(|vector| *turn * vector);
+        Self { eye, right, up, forward, ..*self }
     }
 
     /// Returns the direction that it sees.

@@ -1,6 +1,6 @@
 use cosmorama::camera::Footprint;
 use cosmorama::sphere::Direction;
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 /// A ray with its derivatives along the screen: the beam that a pixel sees (Igehy 1999).
 ///
@@ -68,6 +68,19 @@ impl Ray {
     pub fn scaled(self, part: f64) -> Self {
         let scaled = |change: RayChange| RayChange { origin: change.origin * part, direction: change.direction * part };
         Self { dx: scaled(self.dx), dy: scaled(self.dy), ..self }
+    }
+
+    /// Returns the ray in another frame.
+    #[must_use]
+    pub(crate) fn turned(&self, turn: &DMat3) -> Self {
+        let change =
+            |change: RayChange| RayChange { origin: *turn * change.origin, direction: *turn * change.direction };
+        Self {
+            origin: *turn * self.origin,
+            direction: *turn * self.direction,
+            dx: change(self.dx),
+            dy: change(self.dy),
+        }
     }
 
     /// Returns the changes of the point at a distance, with the distance kept.

@@ -125,7 +125,7 @@ impl Reader {
         let count = self.parts.len();
         let part = *self.parts.entry((self.group.clone(), self.material.clone())).or_insert(count);
         if part == count {
-            self.contents.parts.push(Part { name: self.group.clone(), material: Material::MIRROR });
+            self.contents.parts.push(Part { name: self.group.clone(), material: Material::MIRROR, world: 0 });
         }
         part
     }

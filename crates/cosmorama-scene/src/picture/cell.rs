@@ -15,7 +15,7 @@ use crate::shape::{Meeting, Shape, Sphere, Wall};
 pub(super) struct Pixel<'a> {
     pub(super) scene: &'a Scene,
     pub(super) camera: &'a Camera,
-    pub(super) surroundings: &'a Surroundings<'a>,
+    pub(super) worlds: &'a [Surroundings<'a>],
     /// Reflections of the things of few pixels, by their place in the scene.
     pub(super) reflections: &'a [Option<Reflection>],
     /// Pixels that edges of meshes cross.
@@ -167,7 +167,7 @@ impl<'a> Pixel<'a> {
         let [x, y] = part.middle.map(|offset| offset * cell.side);
         let ray = self.camera.ray(PixelPoint::new(cell.centre.x + x, cell.centre.y + y));
         let Some(beam) = ray.map(|ray| ray.scaled(cell.side)) else { return Some(Rgba::TRANSPARENT) };
-        let Some(wall) = part.sphere.wall(&beam, 0.0) else { return Some(Rgba::TRANSPARENT) };
+        let Some(wall) = part.sphere.seen(&beam) else { return Some(Rgba::TRANSPARENT) };
         let may_split = part.coverage == 1.0;
         self.lit(&Seen { object: part.object, wall: &wall, pixel: cell.pixel, depth: cell.depth, may_split })
     }
@@ -175,20 +175,21 @@ impl<'a> Pixel<'a> {
     /// Returns the light of a surface as if it were all of a part of a pixel; `None` if that must be split.
     pub(super) fn lit(&self, seen: &Seen) -> Option<Rgba> {
         let object = &self.scene.objects[seen.object];
-        let Wall { met, normal, part, .. } = seen.wall;
-        let material = &object.parts[*part].material;
+        let part = &object.parts[seen.wall.part];
+        let world = &self.worlds[part.world];
+        let surface = world.surface(seen.wall, &part.material);
         let whole = self.reflections[seen.object].as_ref().and_then(|reflection| reflection.light(seen.pixel));
         if let Some(reflected) = whole {
-            return Some(self.surroundings.shade(normal, reflected, material));
+            return Some(world.shade(&surface, reflected));
         }
-        let beams = Beam::of(met, normal, material, object.shape.solid());
+        let beams = Beam::of(&seen.wall.met, &surface.normal, &part.material, object.shape.solid());
         let widest = Beam::widest(&beams);
         let split = widest > STRAIGHT && seen.depth < MOST || widest > ROUGH && seen.depth < AT_ONCE;
         if split && seen.may_split {
             return None;
         }
         let detail = if seen.depth > AT_ONCE { Detail::Part } else { Detail::Pixel };
-        Some(self.surroundings.shade(normal, self.surroundings.reflected(&beams, material, detail), material))
+        Some(world.shade(&surface, world.reflected(&beams, surface.gloss, detail)))
     }
 }
 

@@ -6,14 +6,14 @@ mod sampled;
 mod small;
 mod tiles;
 
-use cosmorama::camera::Footprint;
+use cosmorama::camera::{Footprint, PixelPoint};
 use cosmorama::raster::{Image, Rgba};
 use cosmorama::render::Resampler;
 use rayon::prelude::*;
 
 use crate::camera::Camera;
 use crate::error::SceneError;
-use crate::scene::Scene;
+use crate::scene::{Object, Scene};
 use crate::shade::{Detail, Surroundings};
 
 use cell::Pixel;
@@ -33,29 +33,35 @@ pub enum Background {
     Colour(Rgba),
 }
 
-/// Makes the picture of a scene, in linear light premultiplied by alpha.
+/// Makes the picture of a scene, in linear light premultiplied by alpha. The first world is seen behind the things.
 ///
 /// Each pixel sees one cell, or several where an outline crosses it or where curvature shows it much of the world at
 /// once. Each cell is one average. Where edges of meshes cross a pixel, many rays tell what each surface covers of it. What balls of few pixels reflect is the sum over parts of the world. The result does
 /// not depend on the number of threads.
 ///
 /// # Errors
-/// When the surroundings have no maps of light for the scene's materials.
+/// When a world is missing, or has no maps of light for the materials under it.
 pub fn picture(
     scene: &Scene,
     camera: &Camera,
-    surroundings: &Surroundings,
+    worlds: &[Surroundings],
     background: Background,
 ) -> Result<Image<Rgba>, SceneError> {
-    surroundings.check(scene)?;
-    let mut image = backdrop(camera, surroundings, background);
+    let most = scene.parts().map(|part| part.world).max().unwrap_or(0);
+    let (Some(behind), true) = (worlds.first(), most < worlds.len()) else {
+        return Err(SceneError::NoWorld { number: most, count: worlds.len() });
+    };
+    worlds.iter().enumerate().try_for_each(|(number, world)| world.check(scene, number))?;
+    let mut image = backdrop(camera, behind, background);
+    // Things stay, and the camera turns the other way.
+    let camera = &camera.turned(&behind.turn().transpose());
     let width = camera.width();
     let seen = Tile::all(camera).map(|tile| (tile, tile.things(scene, camera)));
     let seen: Vec<(Tile, Vec<usize>)> = seen.filter(|(_, things)| !things.is_empty()).collect();
-    let reflection = |object| Reflection::of(object, camera, surroundings);
+    let reflection = |object: &Object| Reflection::of(object, camera, &worlds[object.parts.first()?.world]);
     let reflections: Vec<Option<Reflection>> = scene.objects.iter().map(reflection).collect();
     let marks = Marks::of(scene, camera);
-    let pixel = Pixel { scene, camera, surroundings, reflections: &reflections, marks: &marks };
+    let pixel = Pixel { scene, camera, worlds, reflections: &reflections, marks: &marks };
     let made: Vec<([usize; 2], Rgba)> =
         seen.par_iter().flat_map_iter(|(tile, things)| pixel.tile(tile, things)).collect();
     for ([i, j], thing) in made {
@@ -68,6 +74,7 @@ pub fn picture(
 /// Makes the picture without things.
 fn backdrop(camera: &Camera, surroundings: &Surroundings, background: Background) -> Image<Rgba> {
     match (background, camera) {
+        (Background::World, Camera::Lens { .. }) if !surroundings.is_far() => near_world(camera, surroundings),
         (Background::World, Camera::Lens { view, .. }) => {
             let sky = surroundings.sky;
             let resampler = Resampler { world: sky.world, target: view, filter: surroundings.filter };
@@ -85,6 +92,20 @@ fn backdrop(camera: &Camera, surroundings: &Surroundings, background: Background
             Image::from_fn(camera.width(), camera.height(), |i, j| colour * camera.coverage(i, j) as f32)
         }
     }
+}
+
+/// Makes the picture of a world whose walls are near.
+fn near_world(camera: &Camera, surroundings: &Surroundings) -> Image<Rgba> {
+    let width = camera.width();
+    let mut image = Image::filled(width, camera.height(), Rgba::TRANSPARENT);
+    image.pixels_mut().par_chunks_mut(width).enumerate().for_each(|(j, row)| {
+        for (i, pixel) in row.iter_mut().enumerate() {
+            if let Some(ray) = camera.ray(PixelPoint::centre(i, j)) {
+                *pixel = surroundings.seen(&ray) * camera.coverage(i, j) as f32;
+            }
+        }
+    });
+    image
 }
 
 /// Lays a colour under a picture, inside the lens.

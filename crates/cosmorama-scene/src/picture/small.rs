@@ -11,9 +11,8 @@ use rayon::prelude::*;
 
 use super::QUARTERS;
 use crate::camera::{Camera, Ray};
-use crate::material::Material;
 use crate::scene::Object;
-use crate::shade::{Detail, Surroundings};
+use crate::shade::{Detail, Gloss, Surroundings};
 use crate::shape::{Shape, Sphere, Wall};
 
 /// Greatest radius, in pixels, of a ball that is treated so.
@@ -49,22 +48,24 @@ struct Patch {
 /// Maker of a ball's reflection.
 struct Thrower<'a> {
     sphere: &'a Sphere,
-    material: &'a Material,
+    gloss: Gloss,
     camera: &'a Camera,
     surroundings: &'a Surroundings<'a>,
 }
 
 impl Reflection {
-    /// Computes what a ball reflects; `None` for a large one, for one that is not seen, for glass and for chrome.
+    /// Computes what a ball reflects; `None` for a large one, for one that is not seen, for glass and
+    /// for chrome, and under a world that is near.
     pub(super) fn of(object: &Object, camera: &Camera, surroundings: &Surroundings) -> Option<Self> {
         let Shape::Sphere(sphere) = &object.shape else { return None };
         let material = &object.parts.first()?.material;
-        if material.glass.is_some() || material.chrome || material.specular == 0.0 {
+        if !surroundings.is_far() {
             return None;
         }
+        let gloss = Gloss::of(material).filter(|gloss| *gloss != Gloss::Chrome && material.glass.is_none())?;
         let radius = radius_in_pixels(sphere, camera).filter(|radius| *radius < SMALL)?;
         let parts = (PARTS * (2.0 * radius / FEW).max(1.0)).ceil() as usize;
-        let thrower = Thrower { sphere, material, camera, surroundings };
+        let thrower = Thrower { sphere, gloss, camera, surroundings };
         // In order, so that sums are those of any number of threads.
         let strips: Vec<Self> = (0..6 * parts)
             .into_par_iter()
@@ -162,7 +163,7 @@ impl Thrower<'_> {
     }
 
     fn light(&self, footprint: &Footprint) -> Rgba {
-        self.surroundings.reflection(self.material, footprint, Detail::Part)
+        self.surroundings.reflection(self.gloss, footprint, Detail::Part)
     }
 
     /// Returns where the ball shows a part of the world; `None` if it does not.

@@ -28,7 +28,7 @@ impl Beam {
     /// colour, less what glass absorbs.
     pub(crate) fn of(met: &Ray, normal: &Normal, material: &Material, solid: &dyn Solid) -> Vec<Self> {
         let mut beams = Vec::new();
-        if material.specular > 0.0 {
+        if material.reflects() {
             match &material.glass {
                 None => beams.push(Self { weight: [1.0; 3], ray: met.reflected(&normal.facing(met)) }),
                 Some(glass) => split(&mut beams, (met, normal), solid, glass),

@@ -2,13 +2,15 @@ use std::f64::consts::FRAC_PI_2;
 
 use cosmorama::camera::{CameraModel, EquirectCamera, FieldOfView, PerspectiveCamera, Placement};
 use cosmorama::filter::{FilterKind, FilterSettings, Kernel};
-use cosmorama::lighting::{Lobe, LobeAverages, PreparedLight, SMOOTHEST};
+use cosmorama::lighting::{Lobe, LobeAverages, LobeError, PreparedLight};
 use cosmorama::raster::{Image, Rgba};
 use cosmorama::render::Resampler;
 use cosmorama::sphere::{Angle, CubeFace};
 use cosmorama::world::{Light, World};
 
 use super::Sky;
+use super::albedo_table::AlbedoTable;
+use super::rough::Alphas;
 use crate::error::SceneError;
 use crate::material::Material;
 use crate::scene::Scene;
@@ -18,8 +20,12 @@ use crate::scene::Scene;
 #[derive(Debug)]
 pub struct LightMaps {
     pub(super) diffuse: Option<LightMap>,
-    pub(super) rough: Vec<(f64, LightMap)>,
+    /// Maps for the roughnesses of whole materials, and for those between which others lie.
+    pub(super) exact: Vec<(f64, LightMap)>,
+    pub(super) chain: Vec<(f64, LightMap)>,
     pub(super) cube: Option<LightMap>,
+    /// What microfacets reflect, if there is metallic-roughness.
+    pub(super) albedo: Option<AlbedoTable>,
 }
 
 /// A panorama of a world's light.
@@ -37,43 +43,47 @@ const ACROSS_ALPHA: f64 = 2.5;
 const WIDTHS: (usize, usize) = (96, 1024);
 
 impl LightMaps {
-    /// Gathers the maps that a scene's materials need.
+    /// Gathers the maps that the materials of a scene's things need, of those that stand under this world, by its number.
     ///
     /// # Errors
     /// When the light is not that of the world, or a material is out of range.
-    pub fn of(scene: &Scene, sky: Sky) -> Result<Self, SceneError> {
+    pub fn of(scene: &Scene, number: usize, sky: Sky) -> Result<Self, SceneError> {
         let Sky { world, light, unseen } = sky;
         let unseen = unseen.unwrap_or(Rgba::TRANSPARENT);
         scene.check()?;
-        let mut alphas: Vec<f64> = scene.materials().filter_map(rough_alpha).collect();
-        alphas.sort_by(f64::total_cmp);
-        alphas.dedup();
-        let is_matt = scene.materials().any(|material| material.diffuse > 0.0);
+        let materials = || scene.materials_under(number);
+        let alphas = Alphas::of(materials().filter_map(Material::alphas));
+        let is_matt = materials().any(Material::is_matt);
         light.check(world)?;
-        let mirrors =
-            |material: &Material| material.specular > 0.0 && !material.chrome && rough_alpha(material).is_none();
-        let cube = scene.materials().any(mirrors).then(|| LightMap::cube(&sky)).flatten();
-        if !is_matt && alphas.is_empty() {
-            return Ok(Self { diffuse: None, rough: Vec::new(), cube });
+        let cube = if alphas.mirror { LightMap::cube(&sky) } else { None };
+        let albedo = materials().any(|material| material.finish.is_some()).then(AlbedoTable::new);
+        let empty = Self { diffuse: None, exact: Vec::new(), chain: Vec::new(), cube, albedo };
+        if !is_matt && alphas.exact.is_empty() && alphas.chain.is_empty() {
+            return Ok(empty);
         }
-        let lobes = alphas.iter().map(|alpha| Lobe::ggx(*alpha)).collect::<Result<Vec<_>, _>>()?;
-        let all: Vec<Lobe> = is_matt.then_some(Lobe::LAMBERT).into_iter().chain(lobes.iter().copied()).collect();
+        let lobe = |alpha: &f64| Ok((*alpha, Lobe::ggx(*alpha)?));
+        let lobes = |alphas: &[f64]| alphas.iter().map(lobe).collect::<Result<Vec<(f64, Lobe)>, LobeError>>();
+        let (exact, chain) = (lobes(&alphas.exact)?, lobes(&alphas.chain)?);
+        let rough = || exact.iter().chain(&chain).map(|(_, lobe)| *lobe);
+        let all: Vec<Lobe> = is_matt.then_some(Lobe::LAMBERT).into_iter().chain(rough()).collect();
         let prepared = PreparedLight::new(world, light, &all)?;
-        let rough = |(alpha, lobe): (f64, Lobe)| {
+        let map = |(alpha, lobe): &(f64, Lobe)| {
             let width = (ACROSS_ALPHA * std::f64::consts::TAU / alpha) as usize;
-            (alpha, LightMap::of(&prepared, (&lobe, unseen), width.clamp(WIDTHS.0, WIDTHS.1)))
+            (*alpha, LightMap::of(&prepared, (lobe, unseen), width.clamp(WIDTHS.0, WIDTHS.1)))
         };
         Ok(Self {
             diffuse: is_matt.then(|| LightMap::of(&prepared, (&Lobe::LAMBERT, unseen), MATT)),
-            rough: alphas.into_iter().zip(lobes).map(rough).collect(),
-            cube,
+            exact: exact.iter().map(map).collect(),
+            chain: chain.iter().map(map).collect(),
+            ..empty
         })
     }
-}
 
-/// Returns the roughness of a material whose reflection a map holds; `None` for mirrors and for what reflects nothing.
-pub(super) fn rough_alpha(material: &Material) -> Option<f64> {
-    (material.specular > 0.0 && material.alpha >= SMOOTHEST && !material.chrome).then_some(material.alpha)
+    /// Returns the roughnesses that there are maps of.
+    pub(super) fn alphas(&self) -> Alphas {
+        let of = |maps: &[(f64, LightMap)]| maps.iter().map(|(alpha, _)| *alpha).collect();
+        Alphas { exact: of(&self.exact), chain: of(&self.chain), mirror: true }
+    }
 }
 
 /// Greatest edge of the faces of a cube of a world's light.

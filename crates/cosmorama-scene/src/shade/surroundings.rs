@@ -1,13 +1,17 @@
 use cosmorama::camera::Footprint;
 use cosmorama::filter::{Bilinear, EwaPyramid, Filter, FilterKind, FilterSettings, Kernel, Prepared};
 use cosmorama::raster::Rgba;
+use cosmorama::sphere::{Angle, Direction, DirectionJacobian};
+use glam::{DMat3, DVec3, Vec3};
 
-use super::maps::rough_alpha;
-use super::{Beam, Chrome, LightMaps, Sky};
-use crate::camera::Normal;
+use super::maps::LightMap;
+use super::rough::RoughLight;
+use super::{Beam, Chrome, Gloss, LightMaps, Proxy, Sky, Surface};
+use crate::camera::Ray;
 use crate::error::SceneError;
 use crate::material::Material;
 use crate::scene::Scene;
+use crate::shape::Wall;
 
 /// A world and its maps of light, ready to be asked by footprints from any number of threads.
 pub struct Surroundings<'a> {
@@ -17,12 +21,16 @@ pub struct Surroundings<'a> {
     /// Filter of what sees much of the world.
     wide: Option<Box<dyn Prepared + 'a>>,
     diffuse: Option<Box<dyn Prepared + 'a>>,
-    rough: Vec<(f64, Box<dyn Prepared + 'a>)>,
+    rough: RoughLight<'a>,
+    maps: &'a LightMaps,
     pub(crate) sky: Sky<'a>,
     pub(crate) filter: FilterSettings,
     /// Mean of the world's light, of all channels.
     pub(crate) mean: f64,
     chrome: Chrome,
+    proxy: Option<Proxy>,
+    /// Rotation from the things to the world.
+    turn: DMat3,
 }
 
 /// Kernel of parts of pixels: [`Kernel::LIGHT`], whose weights add to one over parts side by side. Where parts are less
@@ -48,7 +56,9 @@ impl<'a> Surroundings<'a> {
     /// When the light is not that of the world.
     pub fn new(sky: Sky<'a>, maps: &'a LightMaps, filter: FilterSettings) -> Result<Self, SceneError> {
         let smooth = EwaPyramid { kernel: Kernel::ADAPTIVE, anti_ringing: true };
-        let rough = maps.rough.iter().map(|(alpha, map)| Ok((*alpha, smooth.prepare(&map.world, &map.light)?)));
+        let one = |(alpha, map): &'a (f64, LightMap)| Ok((*alpha, smooth.prepare(&map.world, &map.light)?));
+        let prepared = |maps: &'a [(f64, LightMap)]| maps.iter().map(one).collect::<Result<Vec<_>, SceneError>>();
+        let rough = RoughLight { exact: prepared(&maps.exact)?, chain: prepared(&maps.chain)? };
         let diffuse = maps.diffuse.as_ref().map(|map| Bilinear.prepare(&map.world, &map.light)).transpose()?;
         let wide = maps.cube.as_ref().filter(|_| filter.kind == FilterKind::EwaPyramid);
         let side_by_side = EwaPyramid { kernel: SIDE_BY_SIDE, anti_ringing: false };
@@ -66,10 +76,13 @@ impl<'a> Surroundings<'a> {
             mirror: filter.prepare(sky.world, sky.light)?,
             wide,
             diffuse,
-            rough: rough.collect::<Result<_, SceneError>>()?,
+            rough,
+            maps,
             sky,
             filter,
             chrome: Chrome::earth_and_sky(),
+            proxy: None,
+            turn: DMat3::IDENTITY,
         })
     }
 
@@ -79,17 +92,48 @@ impl<'a> Surroundings<'a> {
         Self { chrome, ..self }
     }
 
-    /// Checks that there are maps for all that a scene's materials ask for.
-    pub(crate) fn check(&self, scene: &Scene) -> Result<(), SceneError> {
-        for material in scene.materials() {
-            if material.diffuse > 0.0 && self.diffuse.is_none() {
+    /// Returns the surroundings with walls that stand for a near world; otherwise it is far away.
+    #[must_use]
+    pub fn with_proxy(self, proxy: Option<Proxy>) -> Self {
+        Self { proxy, ..self }
+    }
+
+    /// Turns the things about the y axis, anticlockwise as seen from above, and not the world.
+    pub fn turn_things(&mut self, angle: Angle) {
+        self.turn = DMat3::from_rotation_y(angle.radians());
+    }
+
+    /// Returns the rotation from the things to the world.
+    pub(crate) fn turn(&self) -> &DMat3 {
+        &self.turn
+    }
+
+    /// Returns whether the world is far away.
+    pub(crate) fn is_far(&self) -> bool {
+        self.proxy.is_none()
+    }
+
+    /// Checks that there are maps for all that the materials of a scene's things under this world ask for.
+    pub(crate) fn check(&self, scene: &Scene, number: usize) -> Result<(), SceneError> {
+        let held = self.maps.alphas();
+        for material in scene.materials_under(number) {
+            if material.is_matt() && self.diffuse.is_none() {
                 return Err(SceneError::NoMap("matt things"));
             }
-            if rough_alpha(material).is_some_and(|wanted| self.rough.iter().all(|(alpha, _)| *alpha != wanted)) {
+            if material.alphas().is_some_and(|range| !held.hold(range)) {
                 return Err(SceneError::NoMap("a roughness"));
+            }
+            if material.finish.is_some() && self.maps.albedo.is_none() {
+                return Err(SceneError::NoMap("metallic-roughness"));
             }
         }
         Ok(())
+    }
+
+    /// Returns what a ray of the camera sees of the world itself.
+    pub(crate) fn seen(&self, ray: &Ray) -> Rgba {
+        let footprint = self.proxy.map_or_else(|| ray.footprint(), |proxy| proxy.footprint(ray));
+        self.world(&footprint, Detail::Pixel)
     }
 
     /// Averages the world itself.
@@ -109,33 +153,54 @@ impl<'a> Surroundings<'a> {
         }
     }
 
-    /// Returns the light that a surface sends back: dc·D + sc·S, of which S is given.
-    pub(crate) fn shade(&self, normal: &Normal, reflected: Rgba, material: &Material) -> Rgba {
-        let mut sum = reflected * material.specular as f32;
-        if let (true, Some(diffuse)) = (material.diffuse > 0.0, &self.diffuse) {
-            sum += diffuse.average(&normal.footprint()) * material.diffuse as f32;
-        }
-        Rgba::opaque(sum.0[0], sum.0[1], sum.0[2])
+    /// Returns a material where a ray meets it.
+    pub(crate) fn surface(&self, wall: &Wall, material: &Material) -> Surface {
+        Surface::of(wall, material, self.maps.albedo.as_ref())
     }
 
-    /// Returns what a material reflects of beams, weighed by colour: S.
-    pub(crate) fn reflected(&self, beams: &[Beam], material: &Material, detail: Detail) -> Rgba {
+    /// Returns the light that a surface sends to the eye: emissive + kd·D + ks·S, of which S is given.
+    pub(crate) fn shade(&self, surface: &Surface, reflected: Rgba) -> Rgba {
+        let light = |Rgba([red, green, blue, _]): Rgba| Vec3::new(red, green, blue);
+        let mut sum = surface.emissive.as_vec3() + light(reflected) * surface.specular.as_vec3();
+        if let (true, Some(diffuse)) = (surface.diffuse != DVec3::ZERO, &self.diffuse) {
+            sum += light(diffuse.average(&turned(&surface.normal.footprint(), &self.turn))) * surface.diffuse.as_vec3();
+        }
+        Rgba::opaque(sum.x, sum.y, sum.z)
+    }
+
+    /// Returns what a surface reflects of beams, weighed by colour: S.
+    pub(crate) fn reflected(&self, beams: &[Beam], gloss: Gloss, detail: Detail) -> Rgba {
         let mut sum = [0.0; 3];
         for beam in beams {
-            let light = self.reflection(material, &beam.footprint(), detail);
+            let light = match &self.proxy {
+                Some(proxy) => self.look(gloss, &proxy.footprint(&beam.ray.turned(&self.turn)), detail),
+                None => self.reflection(gloss, &beam.footprint(), detail),
+            };
             (0..3).for_each(|k| sum[k] += light.0[k] * beam.weight[k] as f32);
         }
         Rgba::opaque(sum[0], sum[1], sum[2])
     }
 
-    /// Returns what a material reflects of a footprint.
-    pub(crate) fn reflection(&self, material: &Material, footprint: &Footprint, detail: Detail) -> Rgba {
-        if material.chrome {
-            return self.chrome.average(footprint);
+    /// Returns what a surface reflects of a footprint in the things' frame.
+    pub(crate) fn reflection(&self, gloss: Gloss, footprint: &Footprint, detail: Detail) -> Rgba {
+        self.look(gloss, &turned(footprint, &self.turn), detail)
+    }
+
+    /// Returns what a surface reflects of a footprint in the world's frame.
+    fn look(&self, gloss: Gloss, footprint: &Footprint, detail: Detail) -> Rgba {
+        match gloss {
+            Gloss::Chrome => self.chrome.average(footprint),
+            Gloss::World(alpha) => self.rough.average(alpha, footprint, || self.world(footprint, detail)),
         }
-        let wanted = rough_alpha(material);
-        let rough = self.rough.iter().find(|(alpha, _)| Some(*alpha) == wanted);
-        rough.map_or_else(|| self.world(footprint, detail), |(_, map)| map.average(footprint))
+    }
+}
+
+/// Returns a footprint in another frame.
+fn turned(footprint: &Footprint, turn: &DMat3) -> Footprint {
+    let Footprint { direction, jacobian: DirectionJacobian { dx, dy } } = *footprint;
+    Footprint {
+        direction: Direction::from_unit(*turn * direction.vector()),
+        jacobian: DirectionJacobian { dx: *turn * dx, dy: *turn * dy },
     }
 }
 

@@ -1,5 +1,6 @@
 //! Shapes that rays meet.
 
+mod chart;
 mod edge;
 mod mesh;
 mod solid;
@@ -9,6 +10,7 @@ use std::sync::Arc;
 
 use crate::camera::Ray;
 
+pub(crate) use chart::Chart;
 pub(crate) use edge::Edge;
 pub(crate) use mesh::Rim;
 pub use mesh::{Face, Mesh, MeshError, Normals};
@@ -63,7 +65,7 @@ impl Shape {
     /// Returns the surface where a ray meets it.
     pub(crate) fn wall(&self, ray: &Ray, hit: &Hit) -> Wall {
         match self {
-            Self::Sphere(sphere) => sphere.wall_at(ray, hit.distance),
+            Self::Sphere(sphere) => sphere.seen_at(ray, hit.distance),
             Self::Mesh(mesh) => mesh.wall(ray, hit),
         }
     }

@@ -1,3 +1,4 @@
+use super::Chart;
 use crate::camera::{Normal, Ray};
 
 /// A closed shape, as rays that glass bends see it.
@@ -22,4 +23,6 @@ pub(crate) struct Wall {
     pub(crate) distance: f64,
     /// Index of the part of the object.
     pub(crate) part: usize,
+    /// Its place on the surface's pictures, if the surface has such coordinates and they were asked for.
+    pub(crate) chart: Option<Chart>,
 }

@@ -1,6 +1,9 @@
-use glam::DVec3;
+use std::f64::consts::{PI, TAU};
 
-use super::{Edge, Solid, Wall};
+use cosmorama::sphere::Orientation;
+use glam::{DVec2, DVec3};
+
+use super::{Chart, Edge, Solid, Wall};
 use crate::camera::{Normal, Ray};
 
 /// A ball.
@@ -10,6 +13,8 @@ pub struct Sphere {
     pub centre: DVec3,
     /// Its radius.
     pub radius: f64,
+    /// How pictures around it are turned.
+    pub orientation: Orientation,
 }
 
 /// Position of a ball relative to a beam.
@@ -40,7 +45,7 @@ impl Solid for Sphere {
 impl Sphere {
     /// Returns a ball.
     pub fn new(centre: DVec3, radius: f64) -> Self {
-        Self { centre, radius }
+        Self { centre, radius, orientation: Orientation::IDENTITY }
     }
 
     /// Returns the distance at which a ray meets the ball, beyond a distance; `None` if it misses.
@@ -65,7 +70,38 @@ impl Sphere {
     /// Returns the surface where a ray meets it, at a distance.
     pub(super) fn wall_at(&self, ray: &Ray, distance: f64) -> Wall {
         let met = ray.met(distance, self.normal_at(ray.at(distance)));
-        Wall { met, normal: self.normal(&met), distance, part: 0 }
+        Wall { met, normal: self.normal(&met), distance, part: 0, chart: None }
+    }
+
+    /// Returns the surface as a ray from outside first sees it, with its place on pictures.
+    pub(crate) fn seen(&self, ray: &Ray) -> Option<Wall> {
+        Some(self.seen_at(ray, self.meet(ray, 0.0)?))
+    }
+
+    /// Returns the surface where a ray meets it, at a distance, with its place on pictures.
+    pub(super) fn seen_at(&self, ray: &Ray, distance: f64) -> Wall {
+        let wall = self.wall_at(ray, distance);
+        Wall { chart: Some(self.chart(&wall.normal)), ..wall }
+    }
+
+    /// Returns the place on a picture that goes around the ball by longitude and latitude: its middle faces +Z, its top
+    /// is +Y, and u goes around towards +X, unless it is turned.
+    fn chart(&self, normal: &Normal) -> Chart {
+        /// Least distance from the axis, so that the poles are places, too.
+        const NEAREST: f64 = 1e-9;
+        let own = |vector: DVec3| self.orientation.vector_to_view(vector);
+        let DVec3 { x, y, z } = own(normal.unit);
+        let axis = x.hypot(z).max(NEAREST);
+        let change =
+            |turned: DVec3| DVec2::new((z * turned.x - x * turned.z) / (axis * axis * TAU), -turned.y / (axis * PI));
+        let tangent = self.orientation.rotation() * DVec3::new(z, 0.0, -x).try_normalize().unwrap_or(DVec3::X);
+        Chart {
+            at: DVec2::new(0.5 + x.atan2(z) / TAU, axis.atan2(y) / PI),
+            dx: change(own(normal.dx)),
+            dy: change(own(normal.dy)),
+            tangent,
+            bitangent: normal.unit.cross(tangent),
+        }
     }
 
     /// Returns the outward unit normal at a point of the surface.

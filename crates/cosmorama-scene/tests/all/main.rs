@@ -4,3 +4,5 @@
 mod meshes;
 mod models;
 mod spheres;
+mod textures;
+mod worlds;

@@ -69,7 +69,7 @@ fn cube(turn: DMat3) -> Vec<Face> {
 
 fn object(faces: Vec<Face>, material: Material) -> Object {
     let mesh = Mesh::new(faces, MADE).unwrap();
-    Object { shape: Shape::Mesh(Arc::new(mesh)), parts: vec![Part { name: "mesh".to_owned(), material }] }
+    Object { shape: Shape::Mesh(Arc::new(mesh)), parts: vec![Part { name: "mesh".to_owned(), material, world: 0 }] }
 }
 
 fn lens(eye: [f64; 3], degrees: f64, size: (usize, usize)) -> Camera {
@@ -87,10 +87,10 @@ fn made(objects: Vec<Object>, camera: &Camera) -> Image<Rgba> {
     let (world, light) = sky();
     let scene = Scene { objects };
     let sky = Sky::new(&world, &light);
-    let maps = LightMaps::of(&scene, sky).unwrap();
+    let maps = LightMaps::of(&scene, 0, sky).unwrap();
     let filter = FilterSettings { kind: FilterKind::EwaPyramid, ..FilterSettings::DEFAULT };
     let surroundings = Surroundings::new(sky, &maps, filter).unwrap();
-    picture(&scene, camera, &surroundings, Background::Colour(Rgba::TRANSPARENT)).unwrap()
+    picture(&scene, camera, std::slice::from_ref(&surroundings), Background::Colour(Rgba::TRANSPARENT)).unwrap()
 }
 
 /// Decibels of the differences of all channels, of light of 1.
@@ -249,7 +249,7 @@ fn glass_with_a_hole_is_refused() {
     faces.pop();
     let (world, light) = sky();
     let scene = Scene { objects: vec![object(faces, Material::GLASS)] };
-    let refused = LightMaps::of(&scene, Sky::new(&world, &light)).unwrap_err();
+    let refused = LightMaps::of(&scene, 0, Sky::new(&world, &light)).unwrap_err();
     let SceneError::Open(edge) = refused else { panic!("{refused}") };
     assert!(edge.iter().flatten().all(|part| part.abs() == 1.0), "{edge:?}");
 }

@@ -36,9 +36,9 @@ fn ball(diameter: f64, at: [f64; 2], material: Material) -> Scene {
 }
 
 fn made(scene: &Scene, sky: Sky, filter: FilterSettings) -> Image<Rgba> {
-    let maps = LightMaps::of(scene, sky).unwrap();
+    let maps = LightMaps::of(scene, 0, sky).unwrap();
     let surroundings = Surroundings::new(sky, &maps, filter).unwrap();
-    picture(scene, &camera(), &surroundings, Background::Colour(Rgba::TRANSPARENT)).unwrap()
+    picture(scene, &camera(), &[surroundings], Background::Colour(Rgba::TRANSPARENT)).unwrap()
 }
 
 /// Computes what a mirror shows by throwing all texels, each in parts, to where it shows them: more than thousands of
@@ -137,10 +137,15 @@ fn glass_in_a_world_of_one_colour_is_not_seen() {
 fn maps_of_another_scene_are_refused() {
     let (world, light) = World::from_panorama(Image::filled(64, 32, Rgba::BLACK)).unwrap();
     let sky = Sky::new(&world, &light);
-    let maps = LightMaps::of(&Scene::sphere(Material::MIRROR), sky).unwrap();
+    let maps = LightMaps::of(&Scene::sphere(Material::MIRROR), 0, sky).unwrap();
     let surroundings = Surroundings::new(sky, &maps, FilterSettings::DEFAULT).unwrap();
     for material in [Material::MATTE, Material { alpha: 0.3, ..Material::MIRROR }] {
-        let made = picture(&Scene::sphere(material.clone()), &camera(), &surroundings, Background::World);
+        let made = picture(
+            &Scene::sphere(material.clone()),
+            &camera(),
+            std::slice::from_ref(&surroundings),
+            Background::World,
+        );
         assert!(matches!(made, Err(SceneError::NoMap(_))), "{material:?}");
     }
 }

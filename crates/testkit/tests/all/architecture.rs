@@ -142,7 +142,7 @@ const CRATES: [CratePlan; 8] = [
     },
     CratePlan {
         name: "cosmorama-scene",
-        crates: &["cosmorama"],
+        crates: &["cosmorama", "cosmorama-spec"],
         rooms: &["sphere", "camera", "raster", "world", "filter", "render", "lighting"],
         banned_std: &["process", "net", "env"],
         banned: &["clap", "println", "eprintln"],

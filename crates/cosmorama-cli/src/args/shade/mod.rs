@@ -1,6 +1,9 @@
 //! Arguments of `shade`: things under a world.
 
+mod material;
 mod names;
+
+use std::path::PathBuf;
 
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueHint};
@@ -13,8 +16,10 @@ use super::parse::listed;
 use super::parse::number::{crease, distance, factor};
 use super::with_examples;
 
+pub(crate) use material::MaterialName;
 pub(crate) use names::{
-    BackgroundName, ByColour, CameraName, ChromeTable, HighlightName, MaterialName, ObjectName, Point, RefractName,
+    BackgroundName, ByColour, CameraName, ChromeTable, HighlightName, ObjectName, PartName, Point, RefractName,
+    WallsName,
 };
 
 /// Example commands in its help.
@@ -34,7 +39,7 @@ pub(super) const EXAMPLES: [&str; 7] = [
 /// averaged over all that the pixel reflects.
 #[derive(Clone, Debug, Args)]
 #[command(help_template = with_examples(&EXAMPLES))]
-#[command(after_help = "docs/objects.md has the conventions")]
+#[command(after_help = "docs/objects.md has the conventions, docs/scenes.md the keys of scene files")]
 pub(crate) struct ShadeArgs {
     /// The world: an image, a pattern, builtin:NAME, or none for chrome; - is standard input
     #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
@@ -51,9 +56,26 @@ pub(crate) struct ShadeArgs {
     /// Make a model's normals smooth over edges up to this angle; 0: flat [default: the file's own, or 40]
     #[arg(long, value_name = "DEGREES", value_parser = crease, allow_negative_numbers = true, hide_short_help = true, help_heading = "Things")]
     pub(crate) crease: Option<Angle>,
-    /// mirror (default), matte, mixed, glass or chrome
+    /// Things, materials, other worlds and the camera in a file (docs/scenes.md)
+    #[arg(
+        long,
+        value_name = "FILE.toml",
+        value_hint = ValueHint::FilePath,
+        conflicts_with_all = ["object", "crease", "material", "texture", "dc", "sc", "alpha", "ior", "absorption", "refract", "surfaces"],
+        help_heading = "Things"
+    )]
+    pub(crate) scene: Option<PathBuf>,
+    /// mirror (default), matte, mixed, glass, chrome or KEY=VALUE,…
+    ///
+    /// metallic=1,roughness=0.3,color=#ffcc66 is glTF's metallic-roughness; emissive, ior and specular are others of its
+    /// keys. Roughness is the root of α. Colours are names, #rrggbb, or linear light as in 1:0.8:0.3.
     #[arg(long, value_name = "NAME", default_value = "mirror", value_parser = listed::material(), hide_possible_values = true, hide_default_value = true, help_heading = "Things")]
     pub(crate) material: MaterialName,
+    /// A picture on what is matt or metallic-roughness: its colour
+    ///
+    /// It goes around a sphere by longitude and latitude; its middle faces +Z.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = "Things")]
+    pub(crate) texture: Option<PathBuf>,
     /// Part of the light that is scattered: dc [default: the material's]
     #[arg(long, value_name = "F", value_parser = distance, allow_negative_numbers = true, help_heading = "Things")]
     pub(crate) dc: Option<f64>,
@@ -98,6 +120,19 @@ pub(crate) struct ShadeArgs {
     /// The power is the highlight's sharpness [default: 300].
     #[arg(long, value_name = "LIGHT", allow_hyphen_values = true, hide_short_help = true, help_heading = "Things")]
     pub(crate) highlight: Vec<HighlightName>,
+    /// A world of its own for a part, NAME=WORLD; may be given again
+    ///
+    /// The spheres of a row are sphere1, sphere2 and so on.
+    #[arg(long, value_name = "NAME=WORLD", help_heading = "World")]
+    pub(crate) part: Vec<PartName>,
+    /// Walls that stand for a near world: box:X,Y,Z or sphere:RADIUS
+    ///
+    /// A reflected ray is met with them, and the world is looked up in the direction of that place from --centre.
+    #[arg(long, value_name = "WALLS", help_heading = "World")]
+    pub(crate) proxy: Option<WallsName>,
+    /// Point from which the world's picture was taken [default: 0,0,0]
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, requires = "proxy", help_heading = "World")]
+    pub(crate) centre: Option<Point>,
     /// The world's projection [default: found]
     #[arg(long, value_name = "SPEC", value_parser = listed::spec(), hide_possible_values = true, help_heading = "World")]
     pub(crate) from: Option<Spec>,
@@ -126,8 +161,8 @@ pub(crate) struct ShadeArgs {
     #[arg(long, value_name = "N", value_parser = frame_list, allow_hyphen_values = true, hide_short_help = true, help_heading = "World")]
     pub(crate) frames: Option<FrameList>,
     /// perspective:fov=40 (default), orthographic:height=H or any SPEC
-    #[arg(long, value_name = "CAMERA", default_value = "perspective:fov=40", value_parser = listed::camera(), hide_possible_values = true, hide_default_value = true, help_heading = "Picture")]
-    pub(crate) camera: CameraName,
+    #[arg(long, value_name = "CAMERA", value_parser = listed::camera(), hide_possible_values = true, help_heading = "Picture")]
+    pub(crate) camera: Option<CameraName>,
     /// Place of the eye [default: before the things, on +Z]
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, help_heading = "Picture")]
     pub(crate) eye: Option<Point>,
@@ -140,6 +175,9 @@ pub(crate) struct ShadeArgs {
     /// world (default), transparent or a colour
     #[arg(long, value_name = "COLOR", default_value = "world", hide_default_value = true, help_heading = "Picture")]
     pub(crate) background: BackgroundName,
+    /// As many pictures of a whole turn of the things, turn_####.png
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000), help_heading = "Picture")]
+    pub(crate) turntable: Option<u64>,
     /// Multiply the picture's light
     #[arg(long, value_name = "FACTOR", value_parser = factor, default_value_t = 1.0, allow_negative_numbers = true, hide_short_help = true, help_heading = "Picture")]
     pub(crate) gain: f32,

@@ -5,7 +5,7 @@ use clap::ValueEnum;
 use cosmorama::lighting::{ColourTable, TableAngle};
 use cosmorama::raster::Rgba;
 use cosmorama::sphere::{Angle, Direction, Orientation};
-use cosmorama_scene::{Highlight, MODEL_EXTENSIONS, Material};
+use cosmorama_scene::{Highlight, MODEL_EXTENSIONS, Walls};
 use cosmorama_spec::{Colour, Spec, colour_table_of_stops};
 
 /// Name of what stands under the world.
@@ -48,36 +48,6 @@ impl FromStr for ObjectName {
 fn is_model(text: &str) -> bool {
     let text = text.to_lowercase();
     MODEL_EXTENSIONS.iter().any(|extension| text.ends_with(extension))
-}
-
-/// Name of a material.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct MaterialName(pub(crate) Material);
-
-impl MaterialName {
-    /// Names for help and completions.
-    pub(crate) const NAMES: [(&'static str, &'static str); 5] = [
-        ("mirror", "reflects all light: dc 0, sc 1"),
-        ("matte", "scatters all light: dc 1, sc 0"),
-        ("mixed", "half of both: dc 0.5, sc 0.5"),
-        ("glass", "reflects and refracts; --ior is its index"),
-        ("chrome", "reflects a table of colours by elevation; --chrome is the table"),
-    ];
-}
-
-impl FromStr for MaterialName {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        match text {
-            "mirror" => Ok(Self(Material::MIRROR)),
-            "matte" | "matt" | "diffuse" => Ok(Self(Material::MATTE)),
-            "mixed" => Ok(Self(Material::MIXED)),
-            "glass" => Ok(Self(Material::GLASS)),
-            "chrome" => Ok(Self(Material::CHROME)),
-            _ => Err("expected mirror, matte, mixed, glass or chrome; --dc, --sc and --alpha change each".to_owned()),
-        }
-    }
 }
 
 /// Name of a camera: parallel rays, or a projection of the library.
@@ -196,6 +166,35 @@ impl FromStr for Point {
         let point = numbers.and_then(|numbers| <[f64; 3]>::try_from(numbers).ok());
         let is_point = |point: &[f64; 3]| point.iter().all(|number| number.is_finite());
         point.filter(is_point).map(Self).ok_or_else(|| "expected three numbers, as in 0,1.5,4".to_owned())
+    }
+}
+
+/// A world for a part: `NAME=WORLD`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct PartName {
+    pub(crate) name: String,
+    pub(crate) world: String,
+}
+
+impl FromStr for PartName {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let parts = text.split_once('=').filter(|(name, world)| !name.is_empty() && !world.is_empty());
+        let part = parts.map(|(name, world)| Self { name: name.to_owned(), world: world.to_owned() });
+        part.ok_or_else(|| "expected NAME=WORLD, as in sphere2=room.hdr".to_owned())
+    }
+}
+
+/// Walls of a near world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct WallsName(pub(crate) Walls);
+
+impl FromStr for WallsName {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        text.parse().map(Self)
     }
 }
 

@@ -1,12 +1,13 @@
-use anyhow::Result;
+use anyhow::{Result, anyhow};
 use cosmorama::camera::View;
 use cosmorama_convert::{
     ConvertError, ExplanationSettings, GeometrySettings, MemoryBudget, Place as SheetPlace, Setting,
 };
-use cosmorama_scene::{Camera, Orthographic, Place, Scene};
+use cosmorama_scene::{Camera, Located, Orthographic, Place, Scene, SceneFile};
 use cosmorama_spec::{Size, Spec};
 
-use crate::args::{CameraName, ShadeArgs};
+use super::things::Things;
+use crate::args::{CameraName, Point, ShadeArgs};
 use crate::failure::usage;
 
 /// A picture that a camera makes, and its place in an image that it shares with others.
@@ -21,26 +22,67 @@ const WIDTH: usize = 640;
 /// Projection of worlds of which nothing is known yet.
 const ANY_WORLD: &str = "equirect";
 
+/// Field of view of a camera of which nothing is said.
+const USUAL: &str = "perspective:fov=40";
+
+/// The camera as it was asked for: by options, or by the scene file.
+struct Asked {
+    camera: CameraName,
+    eye: Option<[f64; 3]>,
+    target: Option<[f64; 3]>,
+    size: Size,
+}
+
+impl Asked {
+    fn of(args: &ShadeArgs, things: &Things) -> Result<Self> {
+        let file = things.file.as_ref().map(SceneFile::camera);
+        let written = |text: &Located, error: String| anyhow!("{}: '{}': {error}", text.place, text.text);
+        let camera = match (&args.camera, file.as_ref().and_then(|file| file.projection.as_ref())) {
+            (Some(camera), _) => camera.clone(),
+            (None, Some(text)) => text.text.parse().map_err(|error| written(text, error))?,
+            (None, None) => USUAL.parse().map_err(usage)?,
+        };
+        let size = match (args.size, file.as_ref().and_then(|file| file.size.as_ref())) {
+            (Some(size), _) => size,
+            (None, Some(text)) => text.text.parse().map_err(|error| written(text, format!("{error}")))?,
+            (None, None) => Size { width: WIDTH, height: None },
+        };
+        let place = |option: Option<Point>, file: Option<[f64; 3]>| option.map(|point| point.0).or(file);
+        Ok(Self {
+            camera,
+            eye: place(args.eye, file.as_ref().and_then(|file| file.eye)),
+            target: place(args.target, file.as_ref().and_then(|file| file.target)),
+            size,
+        })
+    }
+
+    /// Returns the camera's place, as far as it is given.
+    fn placed(&self, usual: Place) -> Place {
+        Place { eye: self.eye.map_or(usual.eye, Into::into), target: self.target.map_or(usual.target, Into::into) }
+    }
+}
+
 /// Returns the pictures that the camera makes: one, or the parts of an image.
-pub(super) fn shots(args: &ShadeArgs, scene: &Scene) -> Result<Vec<Shot>> {
-    let size = args.size.unwrap_or(Size { width: WIDTH, height: None });
-    match &args.camera {
+pub(super) fn shots(args: &ShadeArgs, things: &Things) -> Result<Vec<Shot>> {
+    let (asked, scene) = (Asked::of(args, things)?, &things.scene);
+    let size = asked.size;
+    match &asked.camera {
         CameraName::Orthographic(height) => {
             let pixels = [size.width, size.height.unwrap_or_else(|| (size.width * 3).div_ceil(4))];
             MemoryBudget::new(args.limits.memory).check_picture(pixels.into())?;
             let (place, usual) = scene.place_before_parallel(pixels);
-            let camera = Orthographic::new(placed(args, place), height.unwrap_or(usual), pixels).map_err(wrong)?;
+            let camera = Orthographic::new(asked.placed(place), height.unwrap_or(usual), pixels).map_err(wrong)?;
             Ok(vec![Shot { camera: Camera::Orthographic(camera), place: None }])
         }
-        CameraName::Lens(spec) => lens(args, (**spec).clone(), size, scene),
+        CameraName::Lens(spec) => lens(args, (**spec).clone(), &asked, scene),
     }
 }
 
-fn lens(args: &ShadeArgs, spec: Spec, size: Size, scene: &Scene) -> Result<Vec<Shot>> {
+fn lens(args: &ShadeArgs, spec: Spec, asked: &Asked, scene: &Scene) -> Result<Vec<Shot>> {
     let geometry = GeometrySettings {
         from: Some(ANY_WORLD.parse()?),
         to: Some(spec),
-        size: Some(size),
+        size: Some(asked.size),
         ..GeometrySettings::default()
     };
     let settings =
@@ -55,20 +97,12 @@ fn lens(args: &ShadeArgs, spec: Spec, size: Size, scene: &Scene) -> Result<Vec<S
         ));
     }
     let view = |index: usize| -> &View { &pictures[index].view };
-    let place = placed(args, scene.place_before(view(0)));
+    let place = asked.placed(scene.place_before(view(0)));
     let shot = |index: usize| {
         let camera = Camera::lens(place, view(index).clone()).map_err(wrong)?;
         Ok(Shot { camera, place: pictures[index].place })
     };
     (0..pictures.len()).map(shot).collect()
-}
-
-/// Returns the camera's place, as far as it is given.
-fn placed(args: &ShadeArgs, usual: Place) -> Place {
-    Place {
-        eye: args.eye.map_or(usual.eye, |point| point.0.into()),
-        target: args.target.map_or(usual.target, |point| point.0.into()),
-    }
 }
 
 /// Returns an error about a target as one about the camera.

@@ -8,6 +8,8 @@ use cosmorama::sphere::CubeFace;
 use cosmorama::world::World;
 use cosmorama_builtin::BuiltinWorld;
 use cosmorama_convert::{Builtin, Conversion, GeometrySettings, Radiance, WorldLight};
+use cosmorama_io::FrameList;
+use cosmorama_spec::Spec;
 
 use crate::args::{BackgroundName, ShadeArgs};
 use crate::console::Console;
@@ -27,32 +29,39 @@ const NONE: &str = "none";
 /// Edge of the faces by which a built-in world is held.
 const EDGE: usize = 1024;
 
+/// A world as it was asked for.
+pub(super) struct Asked<'a> {
+    pub(super) name: &'a str,
+    pub(super) from: Option<Spec>,
+    pub(super) frames: Option<FrameList>,
+}
+
 impl WorldInput {
     /// Finds the world's files and reads their headers.
-    pub(super) fn check(args: &ShadeArgs, console: &mut Console) -> Result<Self> {
-        if args.world == NONE {
+    pub(super) fn check(asked: Asked, args: &ShadeArgs, console: &mut Console) -> Result<Self> {
+        if asked.name == NONE {
             return without(args);
         }
-        match Builtin::named(&args.world)? {
-            Some(Builtin::World(world)) if args.from.is_none() && args.frames.is_none() => Ok(Self::Formula(world)),
+        match Builtin::named(asked.name)? {
+            Some(Builtin::World(world)) if asked.from.is_none() && asked.frames.is_none() => Ok(Self::Formula(world)),
             Some(Builtin::World(_)) => {
-                Err(usage(format!("--from and --frames cannot be given for {}: a formula; leave them out", args.world)))
+                Err(usage(format!("--from and --frames cannot be given for {}: a formula; leave them out", asked.name)))
             }
             Some(Builtin::DirectionMap(_)) => {
-                Err(usage(format!("{} holds directions, but things need light; name a world", args.world)))
+                Err(usage(format!("{} holds directions, but things need light; name a world", asked.name)))
             }
-            None => Self::files_of(args, console),
+            None => Self::files_of(asked, args, console),
         }
     }
 
-    fn files_of(args: &ShadeArgs, console: &mut Console) -> Result<Self> {
+    fn files_of(asked: Asked, args: &ShadeArgs, console: &mut Console) -> Result<Self> {
         let mut kept = KeptStreams::default();
         let conversion = Conversion {
-            input: kept.input(&args.world)?,
-            geometry: GeometrySettings { from: args.from.clone(), ..GeometrySettings::default() },
+            input: kept.input(asked.name)?,
+            geometry: GeometrySettings { from: asked.from, ..GeometrySettings::default() },
             transfer: args.transfer.clone(),
             missing: args.missing,
-            frames: args.frames.clone(),
+            frames: asked.frames,
             limits: args.limits.clone().into(),
             ..Conversion::default()
         };

@@ -154,7 +154,7 @@ fn chrome_needs_no_world() {
 fn what_cannot_be_is_refused() {
     let bench = Bench::new();
     bench.save("sky.exr", &crate::bench::floats(64, 32, |_, _| [0.25, 0.5, 1.0]));
-    let cases: [(&[&str], &[&str]); 11] = [
+    let cases: [(&[&str], &[&str]); 18] = [
         (&["ball.jpg", "--background", "transparent"], &["JPEG", "no alpha", ".png"]),
         (&["ball.png", "--eye", "0,0,0"], &["--eye", "no direction"]),
         (&["ball.png", "--eye", "0,0"], &["--eye", "three numbers"]),
@@ -166,6 +166,13 @@ fn what_cannot_be_is_refused() {
         (&["ball.png", "--object", "spheres:0"], &["spheres:5"]),
         (&["ball.png", "--camera", "orthographic:height=0"], &["height=H"]),
         (&["ball.png", "--camera", "cube"], &["--camera", "layout=3x2"]),
+        (&["ball.png", "--material", "metalic=1"], &["'metalic'", "did you mean metallic?"]),
+        (&["ball.png", "--material", "metallic=2"], &["2 is outside 0 to 1"]),
+        (&["ball.png", "--material", "roughness=1", "--alpha", "0.5"], &["--alpha", "roughness=0.5"]),
+        (&["ball.png", "--texture", "sky.exr"], &["--texture", "--material matte"]),
+        (&["ball.png", "--part", "sphere2=sky.exr"], &["--part", "no 'sphere2'", "sphere1"]),
+        (&["ball.png", "--proxy", "box:1,2"], &["--proxy", "box:X,Y,Z"]),
+        (&["ball.png", "--turntable", "4"], &["--turntable", "turn_####.png"]),
     ];
     for (args, says) in cases {
         assert_says(&bench.fail(2, &[&["shade", "sky.exr"], args].concat()), says);
@@ -173,4 +180,50 @@ fn what_cannot_be_is_refused() {
     assert_says(&bench.fail(2, &["shade", "sky.exr", "sky.exr", "-y"]), &["sky.exr"]);
     assert_says(&bench.fail(1, &["shade", "none.exr", "ball.png"]), &["none.exr"]);
     assert_says(&bench.fail(1, &["shade", "sky.exr", "ball.png", "--size", "1000000x1000000"]), &["memory"]);
+}
+
+#[test]
+fn metallic_roughness_and_textures_have_their_colours() {
+    let bench = Bench::new();
+    bench.save("white.exr", &crate::bench::floats(64, 32, |_, _| [1.0; 3]));
+    // Its left half is red, its right half blue; the middle faces the camera.
+    bench.save("map.exr", &crate::bench::floats(64, 32, |i, _| if i < 32 { [0.5, 0.0, 0.0] } else { [0.0, 0.0, 0.5] }));
+    let shade = |args: &[&str]| {
+        let command = ["shade", "white.exr", "ball.exr", "--size", "64x64", "--background", "transparent", "-y"];
+        bench.succeed(&[&command[..], args].concat());
+        light(&bench, "ball.exr")
+    };
+    // Under a white world, smooth metal has its colour straight on, and is white at the outline.
+    let gold = shade(&["--material", "metallic=1,roughness=0.05,color=1:0.5:0.25"]);
+    let at = |image: &Image<Rgba>, i: usize| image.get(i, 32).unpremultiplied();
+    let (middle, outline) = (at(&gold, 32), at(&gold, 61));
+    let near = |found: [f32; 3], expected: [f32; 3]| (0..3).all(|k| (found[k] - expected[k]).abs() < 0.01);
+    assert!(near(middle, [1.0, 0.5, 0.25]) && outline[2] > 0.35, "{middle:?} {outline:?}");
+    // An insulator keeps all light of a white world: what it does not reflect it scatters.
+    let white = shade(&["--material", "roughness=0.4"]);
+    assert!((4..60).all(|i| near(at(&white, i), [1.0; 3])), "{:?}", at(&white, 20));
+    let globe = shade(&["--material", "matte", "--texture", "map.exr"]);
+    let (left, right) = (at(&globe, 20), at(&globe, 44));
+    assert!(near(left, [0.5, 0.0, 0.0]) && near(right, [0.0, 0.0, 0.5]), "{left:?} {right:?}");
+}
+
+#[test]
+fn scene_files_turntables_and_parts_are_pictures() {
+    let bench = Bench::new();
+    bench.save("white.exr", &crate::bench::floats(64, 32, |_, _| [1.0; 3]));
+    bench.save("red.exr", &crate::bench::floats(64, 32, |_, _| [1.0, 0.0, 0.0]));
+    let scene = "[camera]\nprojection = 'orthographic:height=4'\nsize = '64x64'\n\
+                 [[object]]\nname = 'ball'\nshape = 'sphere'\ntranslate = [1, 0, 0]\n";
+    std::fs::write(bench.path("scene.toml"), scene).unwrap();
+    let args = ["--scene", "scene.toml", "--background", "black", "--turntable", "2", "--part", "ball=red.exr"];
+    bench.succeed(&[&["shade", "white.exr", "turn_##.exr"], &args[..]].concat());
+    for (name, shown, empty) in [("turn_01.exr", 48, 16), ("turn_02.exr", 16, 48)] {
+        let image = light(&bench, name);
+        let (thing, beside) = (image.get(shown, 32).0, image.get(empty, 32).0);
+        assert!((thing[0] - 1.0).abs() < 1e-3 && thing[1] < 1e-3 && beside[0] == 0.0, "{name}: {thing:?} {beside:?}");
+    }
+    std::fs::write(bench.path("wrong.toml"), scene.replace("shape", "shap")).unwrap();
+    let wrong = |args: &[&str]| bench.fail(1, &[&["shade", "white.exr", "ball.exr", "--scene"], args].concat());
+    assert_says(&wrong(&["wrong.toml"]), &["wrong.toml, line 6", "`shap`", "did you mean 'shape'?"]);
+    assert_says(&wrong(&["lost.toml"]), &["lost.toml"]);
 }

@@ -52,7 +52,7 @@ pub(super) fn read(path: &Path, most: usize) -> Result<Contents, ModelFault> {
                 .or(node.name())
                 .or(mesh.name())
                 .map_or_else(|| format!("node {}", node.index()), str::to_owned);
-            contents.parts.push(Part { name, material: Material::MIRROR });
+            contents.parts.push(Part { name, material: Material::MIRROR, world: 0 });
         }
     }
     Ok(contents)

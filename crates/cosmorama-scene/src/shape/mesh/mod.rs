@@ -107,7 +107,7 @@ impl Mesh {
         let skin = &self.skins[hit.face];
         let normal = interpolated(&skin.normals, hit.weights, turns);
         let normal = if normal.unit.dot(outward) < 0.0 { normal.reversed() } else { normal };
-        Wall { met, normal, distance: hit.distance, part: skin.part as usize }
+        Wall { met, normal, distance: hit.distance, part: skin.part as usize, chart: None }
     }
 }
 

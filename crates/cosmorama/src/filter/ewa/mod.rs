@@ -8,7 +8,7 @@ pub(crate) mod paper;
 mod pinhole;
 mod prefetch;
 mod rows;
-mod scratch_pool;
+pub(crate) mod scratch_pool;
 mod tap_lender;
 
 use direct::Direct;

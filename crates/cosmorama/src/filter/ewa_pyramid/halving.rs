@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::camera::PixelPoint;
 use crate::filter::rim::field_edge::FieldEdge;
-use crate::raster::Rgba;
+use crate::raster::{Image, Rgba};
 use crate::world::{Source, World, held};
 
 /// Finer texels that make up each texel of a halved world. All of their area that counts contributes evenly.
@@ -67,6 +67,17 @@ impl Parts {
     fn each(self) -> impl Iterator<Item = (usize, usize, f32)> {
         (0..MOST).filter(move |&k| self.parts[k] > 0.0).map(move |k| (k, self.first + k, self.parts[k]))
     }
+}
+
+/// Halves a flat picture: each texel is the mean of its area.
+pub(super) fn halved(picture: &Image<Rgba>) -> Image<Rgba> {
+    let (columns, rows) = (Parts::all(picture.width()), Parts::all(picture.height()));
+    Image::from_fn(columns.len(), rows.len(), |i, j| {
+        let cells = rows[j].each().flat_map(|(_, row, down)| {
+            columns[i].each().map(move |(_, column, across)| *picture.get(column, row) * (across * down))
+        });
+        cells.fold(Rgba::TRANSPARENT, |sum, cell| sum + cell)
+    })
 }
 
 impl Halving {

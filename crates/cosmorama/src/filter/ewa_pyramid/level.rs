@@ -15,7 +15,7 @@ use crate::world::{Source, World};
 const UNIT: f64 = 1.4;
 
 /// Ratio of length to width above which a kernel is widened, so that the number of its texels stays bounded.
-const LONGEST: f64 = 16.0;
+pub(super) const LONGEST: f64 = 16.0;
 
 /// Part of the interval between two levels, at its end, in which the two are blended. Before it only the finer level is
 /// read, which is nearer to exact EWA.
@@ -172,7 +172,7 @@ fn nearness_of_rim(source: &Source, footprint: &Footprint, pixels: f64) -> f64 {
 }
 
 /// Returns the level for a footprint with this Jacobian, in texels; 0 or less means the finest level.
-fn level_of(jacobian: DMat2, kernel: &Kernel, longest: f64) -> f64 {
+pub(super) fn level_of(jacobian: DMat2, kernel: &Kernel, longest: f64) -> f64 {
     let [major, minor] = semi_axes(jacobian);
     let width = minor.max(major / longest);
     // A pixel that holds no more than one texel needs no coarser level.

@@ -2,6 +2,7 @@
 
 pub(crate) mod halving;
 pub(crate) mod level;
+pub(crate) mod texture;
 
 use halving::Halving;
 use level::{LevelNeed, LevelRule, part};

@@ -1,0 +1,173 @@
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use anyhow::Result;
+use cosmorama::filter::{Texture, Wrap};
+use cosmorama::raster::{Image, Rgba, Transfer};
+use cosmorama_convert::{MemoryBudget, real_path};
+use cosmorama_io::{Limits, read};
+use cosmorama_scene::{
+    Chrome, Finish, Glass, Material, MaterialError, NamedWorld, Paint, PictureKind, Refraction, Scene, SceneFile,
+};
+
+use super::model::model;
+use crate::args::{ObjectName, RefractName, ShadeArgs};
+use crate::failure::usage;
+
+/// What stands under the world.
+pub(super) struct Things {
+    pub(super) scene: Scene,
+    pub(super) chrome: Chrome,
+    /// The scene file, if they come from one.
+    pub(super) file: Option<SceneFile>,
+    /// Other worlds that the scene file names.
+    pub(super) worlds: Vec<NamedWorld>,
+    /// Files that were read, by their real paths.
+    pub(super) files: HashSet<PathBuf>,
+}
+
+impl Things {
+    /// Returns the things that were asked for, with their pictures.
+    pub(super) fn read(args: &ShadeArgs) -> Result<Self> {
+        let mut reader =
+            Reader { limits: Limits::memory(MemoryBudget::new(args.limits.memory).bytes), files: HashSet::new() };
+        let file = args.scene.as_deref().map(|path| scene_file(path, &mut reader)).transpose()?;
+        let scene = match &file {
+            Some(file) => {
+                file.scene(&mut |path, kind| reader.picture(path, kind).map_err(|error| error.to_string()))?
+            }
+            None => scene(args, &mut reader)?,
+        };
+        let worlds = file.as_ref().map_or_else(|| Ok(Vec::new()), SceneFile::worlds)?;
+        Ok(Self { scene, chrome: chrome(args, file.is_some())?, file, worlds, files: reader.files })
+    }
+}
+
+/// Reader of pictures and texts.
+struct Reader {
+    limits: Limits,
+    files: HashSet<PathBuf>,
+}
+
+impl Reader {
+    fn picture(&mut self, path: &Path, kind: PictureKind) -> Result<Image<Rgba>> {
+        self.files.insert(real_path(path));
+        let file = read(path, &self.limits)?;
+        Ok(match kind {
+            PictureKind::Colour => file.to_light(),
+            PictureKind::Numbers => file.image.to_light(&Transfer::Linear),
+        })
+    }
+}
+
+fn scene_file(path: &Path, reader: &mut Reader) -> Result<SceneFile> {
+    reader.files.insert(real_path(path));
+    let bytes = std::fs::read(path)
+        .map_err(|error| anyhow::anyhow!("cannot open the scene file {}: {error}", path.display()))?;
+    let text = String::from_utf8(bytes).map_err(|_| {
+        anyhow::anyhow!("{}: not a text; expected a scene file in TOML (docs/scenes.md)", path.display())
+    })?;
+    Ok(SceneFile::parse(path, &text)?)
+}
+
+/// Returns the things that options ask for.
+fn scene(args: &ShadeArgs, reader: &mut Reader) -> Result<Scene> {
+    let asked = &args.material.0;
+    if args.alpha.is_some() && asked.finish.is_some() {
+        return Err(usage("--alpha: metallic-roughness has its own, as in --material roughness=0.5 for an α of 0.25"));
+    }
+    let material = Material {
+        diffuse: args.dc.unwrap_or(asked.diffuse),
+        specular: args.sc.unwrap_or(asked.specular),
+        alpha: args.alpha.unwrap_or(asked.alpha),
+        glass: glass(args, asked.glass)?,
+        ..asked.clone()
+    };
+    material.check().map_err(|error| usage(format!("{}: {error}", option_of(&error))))?;
+    let material = match &args.texture {
+        Some(path) => textured(&material, path, reader)?,
+        None => material,
+    };
+    if args.crease.is_some() && !matches!(args.object, ObjectName::Model(_)) {
+        return Err(usage("--crease is for models; name one, as in --object teapot.obj"));
+    }
+    match &args.object {
+        ObjectName::Sphere => Ok(Scene::sphere(material)),
+        ObjectName::Spheres(_) if args.alpha.is_some() => {
+            Err(usage("--alpha is for one sphere; those of spheres:N go from 1 to 0 by themselves"))
+        }
+        ObjectName::Spheres(count) => {
+            Scene::spheres(*count, &material).map_err(|error| usage(format!("--object: {error}")))
+        }
+        ObjectName::Plate4 if material != Material::MIRROR => Err(usage(
+            "plate4 has materials of its own: leave out --material, --texture, --dc, --sc, --alpha and options of glass",
+        )),
+        ObjectName::Plate4 => Ok(Scene::plate4()),
+        ObjectName::Model(path) => {
+            reader.files.insert(real_path(path));
+            model(path, material, args)
+        }
+    }
+}
+
+/// Returns a material with a picture for its colour.
+fn textured(material: &Material, path: &Path, reader: &mut Reader) -> Result<Material> {
+    let Some(finish) = material.paintable() else {
+        return Err(usage(
+            "--texture colours what is matt or metallic-roughness; add --material matte, or as in --material roughness=0.5",
+        ));
+    };
+    let picture = reader.picture(path, PictureKind::Colour)?;
+    let map = Some(Arc::new(Texture::new(picture, [Wrap::Repeat, Wrap::Clamp])));
+    let base = Paint { map, ..finish.base.clone() };
+    Ok(Material { finish: Some(Arc::new(Finish { base, ..finish })), ..material.clone() })
+}
+
+/// Returns the option that a number of a material comes from.
+fn option_of(error: &MaterialError) -> &'static str {
+    match error {
+        MaterialError::Coefficient(_) => "--dc, --sc",
+        MaterialError::Alpha(_) => "--alpha",
+        MaterialError::Index(_) => "--ior",
+        MaterialError::Absorption(_) => "--absorption",
+        MaterialError::Surfaces(_) => "--surfaces",
+        MaterialError::Part(_) | MaterialError::Colour(_) => "--material",
+    }
+}
+
+/// Returns the table of chrome that was asked for; its options are for nothing else.
+fn chrome(args: &ShadeArgs, is_file: bool) -> Result<Chrome> {
+    if !args.material.0.chrome && !is_file {
+        let message = "--chrome and --highlight are for chrome; add --material chrome";
+        let is_given = args.chrome.is_some() || !args.highlight.is_empty();
+        return if is_given { Err(usage(message)) } else { Ok(Chrome::earth_and_sky()) };
+    }
+    if args.alpha.is_some() || matches!(args.object, ObjectName::Spheres(_)) {
+        return Err(usage("chrome is one smooth sphere: leave out --alpha and spheres:N"));
+    }
+    let highlights = args.highlight.iter().map(|name| name.0).collect();
+    match &args.chrome {
+        Some(table) => Chrome::new(&table.0, highlights).map_err(|error| usage(format!("--chrome: {error}"))),
+        None => Ok(Chrome::earth_and_sky().with_highlights(highlights)),
+    }
+}
+
+/// Returns the glass that was asked for; options of glass are for nothing else.
+fn glass(args: &ShadeArgs, asked: Option<Glass>) -> Result<Option<Glass>> {
+    let given = args.ior.is_some() || args.absorption.is_some() || args.refract.is_some() || args.surfaces.is_some();
+    let Some(usual) = asked else {
+        let message = "--ior, --absorption, --refract and --surfaces are for glass; add --material glass";
+        return if given { Err(usage(message)) } else { Ok(None) };
+    };
+    Ok(Some(Glass {
+        index: args.ior.map_or(usual.index, |index| index.0),
+        absorption: args.absorption.map_or(usual.absorption, |absorption| absorption.0),
+        refraction: match args.refract {
+            Some(RefractName::Bent) => Refraction::Bent,
+            Some(RefractName::Traced) | None => Refraction::Traced,
+        },
+        surfaces: args.surfaces.unwrap_or(usual.surfaces),
+        ..usual
+    }))
+}

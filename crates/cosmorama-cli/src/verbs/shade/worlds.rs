@@ -1,0 +1,86 @@
+use std::path::PathBuf;
+
+use anyhow::{Result, anyhow};
+use cosmorama_convert::Radiance;
+use cosmorama_scene::{Located, NamedWorld, Proxy};
+use cosmorama_spec::{Spec, did_you_mean};
+
+use super::things::Things;
+use super::world::{Asked, WorldInput};
+use crate::args::ShadeArgs;
+use crate::console::Console;
+use crate::failure::{message, usage};
+
+/// A world that things stand under, checked but not read.
+pub(super) struct Under {
+    pub(super) name: String,
+    pub(super) input: WorldInput,
+    pub(super) proxy: Option<Proxy>,
+}
+
+/// Finds the files of all worlds: that of the picture, those of the scene file, and those of single parts, which the parts
+/// are told of.
+pub(super) fn worlds(args: &ShadeArgs, things: &mut Things, console: &mut Console) -> Result<Vec<Under>> {
+    let asked = Asked { name: &args.world, from: args.from.clone(), frames: args.frames.clone() };
+    let proxy =
+        args.proxy.map(|walls| Proxy { centre: args.centre.map_or([0.0; 3], |point| point.0).into(), walls: walls.0 });
+    let main = Under { name: args.world.clone(), input: WorldInput::check(asked, args, console)?, proxy };
+    let mut worlds = vec![main];
+    for world in &things.worlds {
+        worlds.push(of_file(world, args, console)?);
+    }
+    for part in &args.part {
+        let known = worlds.iter().position(|world| world.name == part.world);
+        let number = known.unwrap_or(worlds.len());
+        if known.is_none() {
+            let input = WorldInput::check(Asked { name: &part.world, from: None, frames: None }, args, console)?;
+            worlds.push(Under { name: part.world.clone(), input, proxy: None });
+        }
+        give(things, &part.name, number)?;
+    }
+    Ok(worlds)
+}
+
+fn of_file(world: &NamedWorld, args: &ShadeArgs, console: &mut Console) -> Result<Under> {
+    let spec = |spec: &Located| -> Result<Spec> {
+        spec.text.parse().map_err(|error| anyhow!("{}: spec = \"{}\": {error}", spec.place, spec.text))
+    };
+    let from = world.spec.as_ref().map(spec).transpose()?;
+    let asked = Asked { name: &world.image.text, from, frames: None };
+    let placed = |error| anyhow!("{}: {}", world.image.place, message(&error));
+    let input = WorldInput::check(asked, args, console).map_err(placed)?;
+    Ok(Under { name: world.image.text.clone(), input, proxy: world.proxy })
+}
+
+/// Puts the things of a name under a world.
+fn give(things: &mut Things, name: &str, number: usize) -> Result<()> {
+    let mut count = 0;
+    for part in things.scene.parts_mut().filter(|part| part.name == name) {
+        part.world = number;
+        count += 1;
+    }
+    if count > 0 {
+        return Ok(());
+    }
+    let names: Vec<&str> = things.scene.parts().map(|part| part.name.as_str()).collect();
+    let meant = did_you_mean(name, &names);
+    Err(usage(format!("--part: there is no '{name}'; there is {}{meant}", names.join(", "))))
+}
+
+/// Reads worlds, or renders them.
+pub(super) fn read(worlds: &[Under], console: &Console) -> Result<Vec<Radiance>> {
+    let read: Vec<Radiance> = worlds.iter().map(|world| world.input.read(console)).collect::<Result<_>>()?;
+    match read.iter().position(|world| !world.primaries.is_same(&read[0].primaries)) {
+        None => Ok(read),
+        Some(other) => Err(anyhow!(
+            "{} and {} have other primaries; convert one to those of the other first, with convert --primaries",
+            worlds[0].name,
+            worlds[other].name
+        )),
+    }
+}
+
+/// Lists the files of all worlds, by their real paths.
+pub(super) fn files(worlds: &[Under]) -> impl Iterator<Item = PathBuf> {
+    worlds.iter().filter_map(|world| world.input.files()).flatten().cloned()
+}

@@ -1,0 +1,315 @@
+//! Scene files: things, materials, worlds and a camera, in TOML.
+
+mod error;
+mod material;
+mod written;
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::Path;
+
+use cosmorama::raster::{Image, Rgba};
+use cosmorama::sphere::{Angle, Orientation};
+use cosmorama_spec::did_you_mean;
+use glam::DVec3;
+use toml::Spanned;
+
+use crate::material::Material;
+use crate::scene::{Object, Scene};
+use crate::shade::Proxy;
+use crate::shape::Sphere;
+
+use error::Source;
+use material::Pictures;
+use written::{ObjectEntry, ShapeName, Written};
+
+pub use error::SceneFileError;
+pub use material::PictureKind;
+
+/// A scene file: what stands under which worlds, and how it is seen.
+///
+/// ```
+/// use cosmorama_scene::SceneFile;
+///
+/// let text = "[[object]]\nshape = 'sphere'\nmaterial = 'gold'\n[material.gold]\nmetallic = 1\ncolor = '#ffcc66'\n";
+/// let file = SceneFile::parse("scene.toml", text)?;
+/// let scene = file.scene(&mut |_, _| unreachable!("it names no picture"))?;
+/// assert_eq!(scene.objects.len(), 1);
+///
+/// let wrong = SceneFile::parse("scene.toml", &text.replace("metallic", "metalic")).unwrap_err();
+/// assert!(wrong.to_string().starts_with("scene.toml, line 5: unknown key `metalic`"));
+/// assert!(wrong.to_string().contains("did you mean 'metallic'?"));
+/// # Ok::<(), cosmorama_scene::SceneFileError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct SceneFile {
+    source: Source,
+    written: Written,
+}
+
+/// A world that a scene file names.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedWorld {
+    /// Its name in the file.
+    pub name: String,
+    /// Its image or pattern.
+    pub image: Located,
+    /// Its projection, if it is given.
+    pub spec: Option<Located>,
+    /// Walls that stand for it, if it is near.
+    pub proxy: Option<Proxy>,
+}
+
+/// A text of a scene file, and where it stands.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Located {
+    /// The text.
+    pub text: String,
+    /// File and line.
+    pub place: String,
+}
+
+/// Camera of a scene file, as far as it is given.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FileCamera {
+    /// Its projection.
+    pub projection: Option<Located>,
+    /// Place of its eye.
+    pub eye: Option<[f64; 3]>,
+    /// Point that it looks at.
+    pub target: Option<[f64; 3]>,
+    /// Size of its picture.
+    pub size: Option<Located>,
+}
+
+/// Most things of a file.
+const MOST_OBJECTS: usize = 100_000;
+
+impl SceneFile {
+    /// Reads a scene file's text. Names of files in it are relative to its own folder.
+    ///
+    /// # Errors
+    /// When it is no TOML, has an unknown key, or one of its things has a material or world that it does not have.
+    pub fn parse(path: impl AsRef<Path>, text: &str) -> Result<Self, SceneFileError> {
+        let source = Source { path: path.as_ref().to_owned(), text: text.to_owned() };
+        let written: Written = toml::from_str(text).map_err(|error| source.malformed(&error))?;
+        if written.object.is_empty() {
+            return Err(source.error(None, "there is no [[object]] in it; one is shape = \"sphere\" and a material"));
+        }
+        if written.object.len() > MOST_OBJECTS {
+            let message = format!("{} objects, but {MOST_OBJECTS} are the most", written.object.len());
+            return Err(source.error(None, message));
+        }
+        let file = Self { source, written };
+        file.worlds()?;
+        for object in &file.written.object {
+            file.check(object)?;
+        }
+        Ok(file)
+    }
+
+    /// Returns the camera.
+    pub fn camera(&self) -> FileCamera {
+        let camera = &self.written.camera;
+        let located = |text: &Option<Spanned<String>>| text.as_ref().map(|text| self.located(text));
+        FileCamera {
+            projection: located(&camera.projection),
+            eye: camera.eye,
+            target: camera.target,
+            size: located(&camera.size),
+        }
+    }
+
+    /// Lists the worlds of the file. Number 0 of the scene is the one beside it, and the first of these is number 1.
+    ///
+    /// # Errors
+    /// When one has walls that there are none of.
+    pub fn worlds(&self) -> Result<Vec<NamedWorld>, SceneFileError> {
+        let named = |(name, entry): (&String, &written::WorldEntry)| {
+            let walls = |text: &Spanned<String>| {
+                let walls = text.get_ref().parse().map_err(|error: String| {
+                    self.source.error(Some(text.span()), format!("proxy = \"{}\": {error}", text.get_ref()))
+                })?;
+                Ok(Proxy { centre: entry.centre.into(), walls })
+            };
+            if !entry.centre.iter().all(|number| number.is_finite()) {
+                return Err(self.source.error(Some(entry.image.span()), "centre takes finite numbers"));
+            }
+            Ok(NamedWorld {
+                name: name.clone(),
+                image: Located { text: self.source.beside(entry.image.get_ref()), ..self.located(&entry.image) },
+                spec: entry.spec.as_ref().map(|spec| self.located(spec)),
+                proxy: entry.proxy.as_ref().map(walls).transpose()?,
+            })
+        };
+        self.written.world.iter().map(named).collect()
+    }
+
+    /// Returns the things. Their pictures are read by a function of the file's path.
+    ///
+    /// # Errors
+    /// When a material is out of range, or a picture cannot be read.
+    pub fn scene(
+        &self,
+        pictures: &mut dyn FnMut(&Path, PictureKind) -> Result<Image<Rgba>, String>,
+    ) -> Result<Scene, SceneFileError> {
+        let materials = self.materials(pictures)?;
+        let object = |(index, entry): (usize, &Spanned<ObjectEntry>)| {
+            let entry = entry.get_ref();
+            let material = entry.material.as_ref().and_then(|name| materials.get(name.get_ref().as_str()));
+            let number = |wanted: &Spanned<String>| self.written.world.keys().position(|name| name == wanted.get_ref());
+            let world = entry.world.as_ref().and_then(number).map_or(0, |index| index + 1);
+            let name = entry.name.clone().unwrap_or_else(|| Object::numbered(entry.shape.name(), index));
+            let mut object = Object::sphere(entry.sphere(), material.cloned().unwrap_or_default()).named(name);
+            object.parts.iter_mut().for_each(|part| part.world = world);
+            object
+        };
+        Ok(Scene { objects: self.written.object.iter().enumerate().map(object).collect() })
+    }
+
+    /// Returns the materials that things have, by name.
+    fn materials(&self, pictures: &mut Pictures) -> Result<BTreeMap<&str, Material>, SceneFileError> {
+        let mut materials: BTreeMap<&str, Material> = USUAL.into_iter().collect();
+        for (name, entry) in &self.written.material {
+            materials.insert(name, entry.get_ref().material(entry.span(), &self.source, pictures)?);
+        }
+        Ok(materials)
+    }
+
+    /// Checks that what an object names is there, and that its numbers are some.
+    fn check(&self, object: &Spanned<ObjectEntry>) -> Result<(), SceneFileError> {
+        let entry = object.get_ref();
+        let materials = self.written.material.keys().map(String::as_str).chain(USUAL.into_iter().map(|(name, _)| name));
+        self.known("material", entry.material.as_ref(), materials.collect())?;
+        self.known("world", entry.world.as_ref(), self.written.world.keys().map(String::as_str).collect())?;
+        let wrong = |message: &str, at: Range<usize>| Err(self.source.error(Some(at), message));
+        if !entry.translate.iter().chain(&entry.rotate).all(|number| number.is_finite()) {
+            return wrong("translate and rotate take finite numbers", object.span());
+        }
+        match entry.scale {
+            Some(scale) if !(scale.is_finite() && scale > 0.0) => {
+                wrong(&format!("scale = {scale}: expected a number more than 0"), object.span())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn known(&self, what: &str, name: Option<&Spanned<String>>, known: Vec<&str>) -> Result<(), SceneFileError> {
+        let Some(name) = name.filter(|name| !known.contains(&name.get_ref().as_str())) else { return Ok(()) };
+        let all = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
+        let meant = did_you_mean(name.get_ref(), &known);
+        let message = format!("there is no {what} '{}'; there is {all}{meant}", name.get_ref());
+        Err(self.source.error(Some(name.span()), message))
+    }
+
+    fn located(&self, text: &Spanned<String>) -> Located {
+        Located { text: text.get_ref().clone(), place: self.source.place(Some(text.span())) }
+    }
+}
+
+/// Materials that need no entry.
+const USUAL: [(&str, Material); 5] = [
+    ("mirror", Material::MIRROR),
+    ("matte", Material::MATTE),
+    ("mixed", Material::MIXED),
+    ("glass", Material::GLASS),
+    ("chrome", Material::CHROME),
+];
+
+impl ShapeName {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Sphere => "sphere",
+        }
+    }
+}
+
+impl ObjectEntry {
+    fn sphere(&self) -> Sphere {
+        let [yaw, pitch, roll] = self.rotate.map(Angle::from_degrees);
+        let orientation = Orientation::from_yaw_pitch_roll(yaw, pitch, roll);
+        Sphere { orientation, ..Sphere::new(DVec3::from_array(self.translate), self.scale.unwrap_or(1.0)) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Part;
+
+    const FILE: &str = r##"
+[camera]
+projection = "perspective:fov=30"
+eye = [0, 1, 8]
+
+[world.room]
+image = "room.hdr"
+centre = [0, 1.5, 0]
+proxy = "box:8,3,6"
+
+[material.gold]
+metallic = 1
+roughness = 0.3
+color = "#ffcc66"
+
+[[object]]
+name = "left"
+shape = "sphere"
+material = "gold"
+translate = [-1, 0, 0.5]
+scale = 0.5
+
+[[object]]
+shape = "sphere"
+material = "glass"
+world = "room"
+"##;
+
+    fn error(from: &str, to: &str) -> String {
+        let text = FILE.replacen(from, to, 1);
+        assert_ne!(text, FILE, "{from}");
+        let mut nothing = |_: &Path, _| Err("no such file".to_owned());
+        SceneFile::parse("a.toml", &text).and_then(|file| file.scene(&mut nothing)).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn things_are_those_of_the_file() {
+        let file = SceneFile::parse("a.toml", FILE).unwrap();
+        let scene = file.scene(&mut |_, _| Err(String::new())).unwrap();
+        let parts: Vec<&Part> = scene.parts().collect();
+        let [left, right] = parts.as_slice() else { panic!("{parts:?}") };
+        assert_eq!((left.name.as_str(), right.name.as_str()), ("left", "sphere2"));
+        let ball = scene.objects[0].shape.ball();
+        assert_eq!((ball.centre, ball.radius), (DVec3::new(-1.0, 0.0, 0.5), 0.5));
+        assert_eq!(left.material.finish.as_ref().map(|finish| finish.roughness), Some(0.3));
+        assert_eq!((left.world, right.world, &right.material), (0, 1, &Material::GLASS));
+        let worlds = file.worlds().unwrap();
+        assert_eq!(worlds[0].image, Located { text: "room.hdr".to_owned(), place: "a.toml, line 7".to_owned() });
+        let centre = DVec3::new(0.0, 1.5, 0.0);
+        assert_eq!(worlds[0].proxy.map(|proxy| proxy.centre), Some(centre));
+        assert_eq!(file.camera().eye, Some([0.0, 1.0, 8.0]));
+    }
+
+    #[test]
+    fn mistakes_have_a_line_and_what_may_be_meant() {
+        for (from, to, says) in [
+            ("roughness", "rougness", &["line 13: unknown key `rougness`", "did you mean 'roughness'?"][..]),
+            ("\"gold\"\n", "\"gould\"\n", &["line 19: there is no material 'gould'", "did you mean 'gold'?"]),
+            ("\"room\"\n", "\"rom\"\n", &["line 27: there is no world 'rom'", "did you mean 'room'?"]),
+            ("box:8,3,6", "box:8,3", &["line 9", "box:8,3", "box:X,Y,Z"]),
+            ("\"#ffcc66\"", "\"beige\"", &["line 14", "'beige'", "#rrggbb"]),
+            ("metallic = 1", "metallic = 2", &["line 11", "2 is outside 0 to 1"]),
+            ("metallic = 1", "metallic = \"all\"", &["line 12", "a number"]),
+            ("\"sphere\"", "\"ball\"", &["line 18", "unknown name `ball`", "sphere"]),
+            ("scale = 0.5", "scale = 0", &["scale = 0", "more than 0"]),
+            ("scale = 0.5", "scale = nan", &["scale = NaN"]),
+            ("metallic = 1", "texture = \"lost.png\"", &["line 12", "no such file"]),
+            ("metallic = 1", "kind = \"mirror\"", &["line 11", "matte and metallic"]),
+            ("[camera]", "[camera", &["line 2"]),
+        ] {
+            let error = error(from, to);
+            assert!(error.starts_with("a.toml") && says.iter().all(|part| error.contains(part)), "{to}: {error}");
+        }
+        assert!(SceneFile::parse("a.toml", "").is_err_and(|error| error.to_string().contains("[[object]]")));
+    }
+}

@@ -1,0 +1,23 @@
+use glam::{DMat2, DVec2, DVec3};
+
+/// Place of a ray on the pictures of a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Chart {
+    /// Coordinates u, to the right, and v, down, each 0 to 1 over a picture.
+    pub(crate) at: DVec2,
+    /// Change of the coordinates for one pixel to the right.
+    pub(crate) dx: DVec2,
+    /// Change of the coordinates for one pixel down.
+    pub(crate) dy: DVec2,
+    /// Unit vector on the surface along u.
+    pub(crate) tangent: DVec3,
+    /// Unit vector on the surface against v: up in the picture.
+    pub(crate) bitangent: DVec3,
+}
+
+impl Chart {
+    /// Returns the changes of the coordinates, as columns.
+    pub(crate) fn jacobian(&self) -> DMat2 {
+        DMat2::from_cols(self.dx, self.dy)
+    }
+}
