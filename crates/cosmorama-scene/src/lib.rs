@@ -39,9 +39,11 @@ mod shape;
 pub use camera::{Camera, Normal, Orthographic, Place, Ray, RayChange};
 pub use error::SceneError;
 pub use material::{Finish, Glass, Material, MaterialError, NormalMap, Paint, Refraction};
-pub use model::{EXTENSIONS as MODEL_EXTENSIONS, Model, ModelCamera, ModelError, ModelFault, ModelLens, ModelSettings};
+pub use model::{
+    EXTENSIONS as MODEL_EXTENSIONS, Model, ModelCamera, ModelError, ModelFault, ModelLens, ModelSettings, Placing,
+};
 pub use picture::{Background, picture};
 pub use scene::{Object, Part, Scene};
-pub use scene_file::{FileCamera, Located, NamedWorld, PictureKind, SceneFile, SceneFileError};
+pub use scene_file::{FileCamera, Located, NamedWorld, PictureKind, SceneFile, SceneFileError, SceneReader};
 pub use shade::{Chrome, Highlight, LightMaps, Proxy, Sky, Surroundings, Walls};
 pub use shape::{Face, Mesh, MeshError, Normals, Shape, Sphere};

@@ -46,7 +46,7 @@ impl Camera {
                 let orientation = view.orientation.within(outer);
                 Self::Lens { eye: *turn * *eye, view: Box::new(View { orientation, ..(**view).clone() }) }
             }
-            Self::Orthographic(camera) => Self::Orthographic(camera.turned(turn)),
+            Self::Orthographic(camera) => Self::Orthographic(camera.in_frame(turn)),
         }
     }
 

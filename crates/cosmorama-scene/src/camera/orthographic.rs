@@ -55,7 +55,7 @@ impl Orthographic {
     }
 
     /// Returns the camera in another frame.
-    pub(super) fn turned(&self, turn: &DMat3) -> Self {
+    pub(super) fn in_frame(&self, turn: &DMat3) -> Self {
         let [eye, right, up, forward] = [self.eye, self.right, self.up, self.forward].map(|vector| *turn * vector);
         Self { eye, right, up, forward, ..*self }
     }

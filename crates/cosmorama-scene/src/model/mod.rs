@@ -8,7 +8,8 @@ mod obj;
 use std::path::Path;
 use std::sync::Arc;
 
-use cosmorama::sphere::Angle;
+use cosmorama::sphere::{Angle, Orientation};
+use glam::DVec3;
 
 use crate::material::Material;
 use crate::scene::{Object, Part};
@@ -41,6 +42,31 @@ pub struct ModelSettings {
     pub material: Option<Material>,
     /// Greatest number of triangles.
     pub most: usize,
+    /// Place of all of it; `None` leaves it where the file has it.
+    pub placing: Option<Placing>,
+}
+
+/// Place of a thing: it is scaled, turned, and then moved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placing {
+    /// Factor on its size.
+    pub scale: f64,
+    /// How it is turned about its origin.
+    pub turn: Orientation,
+    /// Place of its origin.
+    pub origin: DVec3,
+}
+
+impl Placing {
+    fn face(&self, face: &Face) -> Face {
+        let turn = self.turn.rotation();
+        Face {
+            corners: face.corners.map(|corner| self.origin + turn * (corner * self.scale)),
+            normals: face.normals.map(|normals| normals.map(|normal| turn * normal)),
+            tangents: face.tangents.map(|all| all.map(|tangent| (turn * tangent.truncate()).extend(tangent.w))),
+            ..*face
+        }
+    }
 }
 
 /// Triangles and parts of a file.
@@ -80,6 +106,10 @@ fn read(path: &Path, settings: &ModelSettings) -> Result<Model, ModelFault> {
         Some("obj") => obj::read(path, settings.most)?,
         Some("gltf" | "glb") => gltf::read(path, settings.most)?,
         _ => return Err(ModelFault::Extension),
+    };
+    let faces = match &settings.placing {
+        Some(placing) => faces.iter().map(|face| placing.face(face)).collect(),
+        None => faces,
     };
     let normals = Normals { kept: settings.crease.is_none(), crease: settings.crease.unwrap_or(crease) };
     let mesh = Mesh::new(faces, normals)?;

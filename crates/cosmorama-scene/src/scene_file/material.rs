@@ -1,17 +1,15 @@
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use cosmorama::filter::{Texture, Wrap};
 use cosmorama::raster::{Image, Rgba};
 use toml::Spanned;
 
+use super::SceneReader;
 use super::error::{SceneFileError, Source};
 use super::written::{Kind, MaterialEntry, WrapName};
 use crate::material::{Finish, Glass, Material, NormalMap, Paint};
-
-/// Reader of pictures, by their paths.
-pub(super) type Pictures<'a> = dyn FnMut(&Path, PictureKind) -> Result<Image<Rgba>, String> + 'a;
 
 /// What a picture holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,7 +29,7 @@ impl MaterialEntry {
         &self,
         at: Range<usize>,
         source: &Source,
-        pictures: &mut Pictures,
+        reader: &mut dyn SceneReader,
     ) -> Result<Material, SceneFileError> {
         let wrong = |message: &str| source.error(Some(at.clone()), message);
         let usual = match self.kind {
@@ -43,7 +41,7 @@ impl MaterialEntry {
             Some(Kind::Metallic) | None => Material::of(Finish { roughness: ROUGHNESS, ..Finish::default() }),
         };
         let finish = match usual.paintable() {
-            Some(usual) if self.is_painted() => Some(Arc::new(self.finish(usual, source, pictures)?)),
+            Some(usual) if self.is_painted() => Some(Arc::new(self.finish(usual, source, reader)?)),
             None if self.is_painted() => {
                 let message = "color, textures, metallic, roughness and specular are for the kinds matte and metallic";
                 return Err(wrong(message));
@@ -87,11 +85,11 @@ impl MaterialEntry {
         [&self.texture, &self.metal_texture, &self.emissive_texture, &self.normal_texture].into_iter()
     }
 
-    fn finish(&self, usual: Finish, source: &Source, pictures: &mut Pictures) -> Result<Finish, SceneFileError> {
+    fn finish(&self, usual: Finish, source: &Source, reader: &mut dyn SceneReader) -> Result<Finish, SceneFileError> {
         let wrap = [self.wrap.wrap(); 2];
         let mut picture = |path: &Option<Spanned<PathBuf>>, kind: PictureKind| {
             let Some(path) = path else { return Ok(None) };
-            let found = pictures(&source.folder().join(path.get_ref()), kind);
+            let found = reader.picture(&source.folder().join(path.get_ref()), kind);
             found.map(Some).map_err(|message| source.error(Some(path.span()), message))
         };
         let map = |picture: Image<Rgba>| Arc::new(Texture::new(picture, wrap));

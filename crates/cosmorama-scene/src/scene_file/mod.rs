@@ -6,22 +6,21 @@ mod written;
 
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use cosmorama::raster::{Image, Rgba};
 use cosmorama::sphere::{Angle, Orientation};
 use cosmorama_spec::did_you_mean;
-use glam::DVec3;
 use toml::Spanned;
 
 use crate::material::Material;
+use crate::model::{ModelSettings, Placing};
 use crate::scene::{Object, Scene};
 use crate::shade::Proxy;
 use crate::shape::Sphere;
 
 use error::Source;
-use material::Pictures;
-use written::{ObjectEntry, ShapeName, Written};
+use written::{ObjectEntry, Written};
 
 pub use error::SceneFileError;
 pub use material::PictureKind;
@@ -29,11 +28,27 @@ pub use material::PictureKind;
 /// A scene file: what stands under which worlds, and how it is seen.
 ///
 /// ```
-/// use cosmorama_scene::SceneFile;
+/// use std::path::Path;
+///
+/// use cosmorama::raster::{Image, Rgba};
+/// use cosmorama_scene::{ModelSettings, Object, PictureKind, SceneFile, SceneReader};
+///
+/// /// A reader for files that name none.
+/// struct Nothing;
+///
+/// impl SceneReader for Nothing {
+///     fn picture(&mut self, _: &Path, _: PictureKind) -> Result<Image<Rgba>, String> {
+///         Err("no pictures here".to_owned())
+///     }
+///
+///     fn model(&mut self, _: &Path, _: ModelSettings) -> Result<Object, String> {
+///         Err("no models here".to_owned())
+///     }
+/// }
 ///
 /// let text = "[[object]]\nshape = 'sphere'\nmaterial = 'gold'\n[material.gold]\nmetallic = 1\ncolor = '#ffcc66'\n";
 /// let file = SceneFile::parse("scene.toml", text)?;
-/// let scene = file.scene(&mut |_, _| unreachable!("it names no picture"))?;
+/// let scene = file.scene(&mut Nothing)?;
 /// assert_eq!(scene.objects.len(), 1);
 ///
 /// let wrong = SceneFile::parse("scene.toml", &text.replace("metallic", "metalic")).unwrap_err();
@@ -45,6 +60,21 @@ pub use material::PictureKind;
 pub struct SceneFile {
     source: Source,
     written: Written,
+}
+
+/// Reader of the files that a scene file names.
+pub trait SceneReader {
+    /// Reads a picture.
+    ///
+    /// # Errors
+    /// When it cannot be read; the reason is told behind the line that names it.
+    fn picture(&mut self, path: &Path, kind: PictureKind) -> Result<Image<Rgba>, String>;
+
+    /// Reads a model, of as many triangles as the reader allows.
+    ///
+    /// # Errors
+    /// When it cannot be read; the reason is told behind the line that names it.
+    fn model(&mut self, path: &Path, settings: ModelSettings) -> Result<Object, String>;
 }
 
 /// A world that a scene file names.
@@ -145,33 +175,53 @@ impl SceneFile {
         self.written.world.iter().map(named).collect()
     }
 
-    /// Returns the things. Their pictures are read by a function of the file's path.
+    /// Returns the things, with the pictures and models that they name.
     ///
     /// # Errors
-    /// When a material is out of range, or a picture cannot be read.
-    pub fn scene(
-        &self,
-        pictures: &mut dyn FnMut(&Path, PictureKind) -> Result<Image<Rgba>, String>,
-    ) -> Result<Scene, SceneFileError> {
-        let materials = self.materials(pictures)?;
-        let object = |(index, entry): (usize, &Spanned<ObjectEntry>)| {
+    /// When a material is out of range, or a file cannot be read.
+    pub fn scene(&self, reader: &mut dyn SceneReader) -> Result<Scene, SceneFileError> {
+        let materials = self.materials(reader)?;
+        let mut scene = Scene::default();
+        for (index, entry) in self.written.object.iter().enumerate() {
             let entry = entry.get_ref();
-            let material = entry.material.as_ref().and_then(|name| materials.get(name.get_ref().as_str()));
+            let material = entry.material.as_ref().and_then(|name| materials.get(name.get_ref().as_str())).cloned();
             let number = |wanted: &Spanned<String>| self.written.world.keys().position(|name| name == wanted.get_ref());
             let world = entry.world.as_ref().and_then(number).map_or(0, |index| index + 1);
-            let name = entry.name.clone().unwrap_or_else(|| Object::numbered(entry.shape.name(), index));
-            let mut object = Object::sphere(entry.sphere(), material.cloned().unwrap_or_default()).named(name);
+            let mut object = match &entry.file {
+                Some(file) => self.model(entry, (file, material), reader)?,
+                None => {
+                    let name = entry.name.clone().unwrap_or_else(|| Object::numbered("sphere", index));
+                    Object::sphere(entry.sphere(), material.unwrap_or_default()).named(name)
+                }
+            };
             object.parts.iter_mut().for_each(|part| part.world = world);
-            object
-        };
-        Ok(Scene { objects: self.written.object.iter().enumerate().map(object).collect() })
+            scene.objects.push(object);
+        }
+        Ok(scene)
+    }
+
+    /// Reads a model. Its parts keep the names that its file gives them, behind that of the whole.
+    fn model(
+        &self,
+        entry: &ObjectEntry,
+        (file, material): (&Spanned<PathBuf>, Option<Material>),
+        reader: &mut dyn SceneReader,
+    ) -> Result<Object, SceneFileError> {
+        let crease = entry.crease.map(Angle::from_degrees);
+        let settings = ModelSettings { crease, material, most: usize::MAX, placing: Some(entry.placing()) };
+        let found = reader.model(&self.source.folder().join(file.get_ref()), settings);
+        let mut object = found.map_err(|message| self.source.error(Some(file.span()), message))?;
+        if let Some(name) = &entry.name {
+            object.parts.iter_mut().for_each(|part| part.name = format!("{name}/{}", part.name));
+        }
+        Ok(object)
     }
 
     /// Returns the materials that things have, by name.
-    fn materials(&self, pictures: &mut Pictures) -> Result<BTreeMap<&str, Material>, SceneFileError> {
+    fn materials(&self, reader: &mut dyn SceneReader) -> Result<BTreeMap<&str, Material>, SceneFileError> {
         let mut materials: BTreeMap<&str, Material> = USUAL.into_iter().collect();
         for (name, entry) in &self.written.material {
-            materials.insert(name, entry.get_ref().material(entry.span(), &self.source, pictures)?);
+            materials.insert(name, entry.get_ref().material(entry.span(), &self.source, reader)?);
         }
         Ok(materials)
     }
@@ -183,6 +233,14 @@ impl SceneFile {
         self.known("material", entry.material.as_ref(), materials.collect())?;
         self.known("world", entry.world.as_ref(), self.written.world.keys().map(String::as_str).collect())?;
         let wrong = |message: &str, at: Range<usize>| Err(self.source.error(Some(at), message));
+        if entry.shape.is_some() == entry.file.is_some() {
+            return wrong("an object has a shape = \"sphere\", or a file = \"model.obj\"", object.span());
+        }
+        if entry.crease.is_some_and(|crease| !(0.0..=180.0).contains(&crease))
+            || entry.crease.is_some() && entry.file.is_none()
+        {
+            return wrong("crease is an angle from 0 to 180 degrees, of a model's file", object.span());
+        }
         if !entry.translate.iter().chain(&entry.rotate).all(|number| number.is_finite()) {
             return wrong("translate and rotate take finite numbers", object.span());
         }
@@ -216,19 +274,19 @@ const USUAL: [(&str, Material); 5] = [
     ("chrome", Material::CHROME),
 ];
 
-impl ShapeName {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Sphere => "sphere",
+impl ObjectEntry {
+    fn placing(&self) -> Placing {
+        let [yaw, pitch, roll] = self.rotate.map(Angle::from_degrees);
+        Placing {
+            scale: self.scale.unwrap_or(1.0),
+            turn: Orientation::from_yaw_pitch_roll(yaw, pitch, roll),
+            origin: self.translate.into(),
         }
     }
-}
 
-impl ObjectEntry {
     fn sphere(&self) -> Sphere {
-        let [yaw, pitch, roll] = self.rotate.map(Angle::from_degrees);
-        let orientation = Orientation::from_yaw_pitch_roll(yaw, pitch, roll);
-        Sphere { orientation, ..Sphere::new(DVec3::from_array(self.translate), self.scale.unwrap_or(1.0)) }
+        let Placing { scale, turn, origin } = self.placing();
+        Sphere { orientation: turn, ..Sphere::new(origin, scale) }
     }
 }
 
@@ -236,6 +294,7 @@ impl ObjectEntry {
 mod tests {
     use super::*;
     use crate::scene::Part;
+    use glam::DVec3;
 
     const FILE: &str = r##"
 [camera]
@@ -265,17 +324,28 @@ material = "glass"
 world = "room"
 "##;
 
+    struct Nothing;
+
+    impl SceneReader for Nothing {
+        fn picture(&mut self, _: &Path, _: PictureKind) -> Result<Image<Rgba>, String> {
+            Err("no such picture".to_owned())
+        }
+
+        fn model(&mut self, path: &Path, settings: ModelSettings) -> Result<Object, String> {
+            Err(format!("no such model: {} at {}", path.display(), settings.placing.unwrap().origin))
+        }
+    }
+
     fn error(from: &str, to: &str) -> String {
         let text = FILE.replacen(from, to, 1);
         assert_ne!(text, FILE, "{from}");
-        let mut nothing = |_: &Path, _| Err("no such file".to_owned());
-        SceneFile::parse("a.toml", &text).and_then(|file| file.scene(&mut nothing)).unwrap_err().to_string()
+        SceneFile::parse("a.toml", &text).and_then(|file| file.scene(&mut Nothing)).unwrap_err().to_string()
     }
 
     #[test]
     fn things_are_those_of_the_file() {
         let file = SceneFile::parse("a.toml", FILE).unwrap();
-        let scene = file.scene(&mut |_, _| Err(String::new())).unwrap();
+        let scene = file.scene(&mut Nothing).unwrap();
         let parts: Vec<&Part> = scene.parts().collect();
         let [left, right] = parts.as_slice() else { panic!("{parts:?}") };
         assert_eq!((left.name.as_str(), right.name.as_str()), ("left", "sphere2"));
@@ -303,8 +373,11 @@ world = "room"
             ("\"sphere\"", "\"ball\"", &["line 18", "unknown name `ball`", "sphere"]),
             ("scale = 0.5", "scale = 0", &["scale = 0", "more than 0"]),
             ("scale = 0.5", "scale = nan", &["scale = NaN"]),
-            ("metallic = 1", "texture = \"lost.png\"", &["line 12", "no such file"]),
+            ("metallic = 1", "texture = \"lost.png\"", &["line 12", "no such picture"]),
             ("metallic = 1", "kind = \"mirror\"", &["line 11", "matte and metallic"]),
+            ("shape = \"sphere\"", "file = \"horse.obj\"", &["line 18", "no such model: horse.obj at [-1, 0, 0.5]"]),
+            ("shape = \"sphere\"", "", &["line 16", "a file = \"model.obj\""]),
+            ("scale = 0.5", "crease = 40", &["crease", "of a model's file"]),
             ("[camera]", "[camera", &["line 2"]),
         ] {
             let error = error(from, to);

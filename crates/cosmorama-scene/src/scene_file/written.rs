@@ -127,7 +127,11 @@ impl TryFrom<String> for ColourText {
 #[serde(deny_unknown_fields)]
 pub(super) struct ObjectEntry {
     pub(super) name: Option<String>,
-    pub(super) shape: ShapeName,
+    pub(super) shape: Option<ShapeName>,
+    /// A model's file.
+    pub(super) file: Option<Spanned<PathBuf>>,
+    /// Angle in degrees, as of `--crease`.
+    pub(super) crease: Option<f64>,
     pub(super) material: Option<Spanned<String>>,
     pub(super) world: Option<Spanned<String>>,
     #[serde(default)]

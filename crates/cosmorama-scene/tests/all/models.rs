@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use cosmorama::camera::PixelPoint;
 use cosmorama_scene::{Material, Model, ModelSettings, Shape};
 
-const SETTINGS: ModelSettings = ModelSettings { crease: None, material: None, most: 1_000_000 };
+const SETTINGS: ModelSettings = ModelSettings { crease: None, material: None, most: 1_000_000, placing: None };
 
 /// A file that is removed after the test.
 struct File(PathBuf);

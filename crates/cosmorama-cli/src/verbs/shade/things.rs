@@ -2,13 +2,14 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use anyhow::Result;
+use anyhow::{Error, Result, anyhow};
 use cosmorama::filter::{Texture, Wrap};
 use cosmorama::raster::{Image, Rgba, Transfer};
 use cosmorama_convert::{MemoryBudget, real_path};
 use cosmorama_io::{Limits, read};
 use cosmorama_scene::{
-    Chrome, Finish, Glass, Material, MaterialError, NamedWorld, Paint, PictureKind, Refraction, Scene, SceneFile,
+    Chrome, Finish, Glass, Material, MaterialError, Model, ModelSettings, NamedWorld, Object, Paint, PictureKind,
+    Refraction, Scene, SceneFile, SceneReader,
 };
 
 use super::model::model;
@@ -30,13 +31,12 @@ pub(super) struct Things {
 impl Things {
     /// Returns the things that were asked for, with their pictures.
     pub(super) fn read(args: &ShadeArgs) -> Result<Self> {
-        let mut reader =
-            Reader { limits: Limits::memory(MemoryBudget::new(args.limits.memory).bytes), files: HashSet::new() };
+        let budget = MemoryBudget::new(args.limits.memory);
+        let most = budget.count_of(Model::TRIANGLE_BYTES);
+        let mut reader = Reader { limits: Limits::memory(budget.bytes), most, files: HashSet::new() };
         let file = args.scene.as_deref().map(|path| scene_file(path, &mut reader)).transpose()?;
         let scene = match &file {
-            Some(file) => {
-                file.scene(&mut |path, kind| reader.picture(path, kind).map_err(|error| error.to_string()))?
-            }
+            Some(file) => file.scene(&mut reader)?,
             None => scene(args, &mut reader)?,
         };
         let worlds = file.as_ref().map_or_else(|| Ok(Vec::new()), SceneFile::worlds)?;
@@ -47,27 +47,33 @@ impl Things {
 /// Reader of pictures and texts.
 struct Reader {
     limits: Limits,
+    /// Most triangles of a model.
+    most: usize,
     files: HashSet<PathBuf>,
 }
 
-impl Reader {
-    fn picture(&mut self, path: &Path, kind: PictureKind) -> Result<Image<Rgba>> {
+impl SceneReader for Reader {
+    fn picture(&mut self, path: &Path, kind: PictureKind) -> Result<Image<Rgba>, String> {
         self.files.insert(real_path(path));
-        let file = read(path, &self.limits)?;
+        let file = read(path, &self.limits).map_err(|error| error.to_string())?;
         Ok(match kind {
             PictureKind::Colour => file.to_light(),
             PictureKind::Numbers => file.image.to_light(&Transfer::Linear),
         })
     }
+
+    fn model(&mut self, path: &Path, settings: ModelSettings) -> Result<Object, String> {
+        self.files.insert(real_path(path));
+        model(path, ModelSettings { most: self.most, ..settings }).map_err(|error| error.to_string())
+    }
 }
 
 fn scene_file(path: &Path, reader: &mut Reader) -> Result<SceneFile> {
     reader.files.insert(real_path(path));
-    let bytes = std::fs::read(path)
-        .map_err(|error| anyhow::anyhow!("cannot open the scene file {}: {error}", path.display()))?;
-    let text = String::from_utf8(bytes).map_err(|_| {
-        anyhow::anyhow!("{}: not a text; expected a scene file in TOML (docs/scenes.md)", path.display())
-    })?;
+    let bytes =
+        std::fs::read(path).map_err(|error| anyhow!("cannot open the scene file {}: {error}", path.display()))?;
+    let text = String::from_utf8(bytes)
+        .map_err(|_| anyhow!("{}: not a text; expected a scene file in TOML (docs/scenes.md)", path.display()))?;
     Ok(SceneFile::parse(path, &text)?)
 }
 
@@ -105,8 +111,10 @@ fn scene(args: &ShadeArgs, reader: &mut Reader) -> Result<Scene> {
         )),
         ObjectName::Plate4 => Ok(Scene::plate4()),
         ObjectName::Model(path) => {
+            let settings =
+                ModelSettings { crease: args.crease, material: Some(material), most: reader.most, placing: None };
             reader.files.insert(real_path(path));
-            model(path, material, args)
+            Ok(Scene { objects: vec![model(path, settings)?] })
         }
     }
 }
@@ -118,7 +126,7 @@ fn textured(material: &Material, path: &Path, reader: &mut Reader) -> Result<Mat
             "--texture colours what is matt or metallic-roughness; add --material matte, or as in --material roughness=0.5",
         ));
     };
-    let picture = reader.picture(path, PictureKind::Colour)?;
+    let picture = reader.picture(path, PictureKind::Colour).map_err(Error::msg)?;
     let map = Some(Arc::new(Texture::new(picture, [Wrap::Repeat, Wrap::Clamp])));
     let base = Paint { map, ..finish.base.clone() };
     Ok(Material { finish: Some(Arc::new(Finish { base, ..finish })), ..material.clone() })

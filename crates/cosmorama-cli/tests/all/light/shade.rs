@@ -212,7 +212,7 @@ fn scene_files_turntables_and_parts_are_pictures() {
     let bench = Bench::new();
     bench.save("white.exr", &crate::bench::floats(64, 32, |_, _| [1.0; 3]));
     bench.save("red.exr", &crate::bench::floats(64, 32, |_, _| [1.0, 0.0, 0.0]));
-    let scene = "[camera]\nprojection = 'orthographic:height=4'\nsize = '64x64'\n\
+    let scene = "[camera]\nprojection = 'orthographic:height=4'\nsize = '64x64'\neye = [0, 0, 9]\ntarget = [0, 0, 0]\n\
                  [[object]]\nname = 'ball'\nshape = 'sphere'\ntranslate = [1, 0, 0]\n";
     std::fs::write(bench.path("scene.toml"), scene).unwrap();
     let args = ["--scene", "scene.toml", "--background", "black", "--turntable", "2", "--part", "ball=red.exr"];
@@ -222,8 +222,22 @@ fn scene_files_turntables_and_parts_are_pictures() {
         let (thing, beside) = (image.get(shown, 32).0, image.get(empty, 32).0);
         assert!((thing[0] - 1.0).abs() < 1e-3 && thing[1] < 1e-3 && beside[0] == 0.0, "{name}: {thing:?} {beside:?}");
     }
+    // A square that is moved to where the ball was.
+    std::fs::write(bench.path("flat.obj"), "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n").unwrap();
+    let model =
+        scene.replace("shape = 'sphere'", "file = 'flat.obj'\nmaterial = 'matte'\nscale = 0.5\nrotate = [0, 0, 45]");
+    std::fs::write(bench.path("model.toml"), model).unwrap();
+    bench.succeed(&["shade", "white.exr", "model.exr", "--scene", "model.toml", "--background", "black", "-y"]);
+    let image = light(&bench, "model.exr");
+    let at = |x: usize, y: usize| image.get(x, y).0[1];
+    assert!(
+        at(48, 32) > 0.9 && at(48, 42) > 0.9 && at(57, 41) < 0.1 && at(32, 32) < 0.1,
+        "{} {}",
+        at(48, 42),
+        at(57, 41)
+    );
     std::fs::write(bench.path("wrong.toml"), scene.replace("shape", "shap")).unwrap();
     let wrong = |args: &[&str]| bench.fail(1, &[&["shade", "white.exr", "ball.exr", "--scene"], args].concat());
-    assert_says(&wrong(&["wrong.toml"]), &["wrong.toml, line 6", "`shap`", "did you mean 'shape'?"]);
+    assert_says(&wrong(&["wrong.toml"]), &["wrong.toml, line 8", "`shap`", "did you mean 'shape'?"]);
     assert_says(&wrong(&["lost.toml"]), &["lost.toml"]);
 }
