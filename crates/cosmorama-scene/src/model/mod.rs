@@ -51,7 +51,7 @@ pub struct ModelSettings {
 pub struct Placing {
     /// Factor on its size.
     pub scale: f64,
-    /// How it is turned about its origin.
+    /// Orientation about its origin.
     pub turn: Orientation,
     /// Place of its origin.
     pub origin: DVec3,

@@ -10,7 +10,7 @@ use thiserror::Error;
 pub struct SceneFileError {
     /// File, and line if it is known.
     pub place: String,
-    /// What was found, and what was expected.
+    /// Explanation: the text that was found, and the one that was expected.
     pub message: String,
 }
 

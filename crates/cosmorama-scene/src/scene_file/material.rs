@@ -11,7 +11,7 @@ use super::error::{SceneFileError, Source};
 use super::written::{Kind, MaterialEntry, WrapName};
 use crate::material::{Finish, Glass, Material, NormalMap, Paint};
 
-/// What a picture holds.
+/// Content of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PictureKind {
     /// Colours, to be decoded to light.

@@ -24,7 +24,7 @@ pub struct LightMaps {
     pub(super) exact: Vec<(f64, LightMap)>,
     pub(super) chain: Vec<(f64, LightMap)>,
     pub(super) cube: Option<LightMap>,
-    /// What microfacets reflect, if there is metallic-roughness.
+    /// Albedo of microfacets, if there is metallic-roughness.
     pub(super) albedo: Option<AlbedoTable>,
 }
 

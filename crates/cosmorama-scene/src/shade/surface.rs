@@ -18,7 +18,7 @@ pub(crate) struct Surface {
     pub(crate) gloss: Gloss,
 }
 
-/// What a surface reflects.
+/// Source of a surface's reflection.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Gloss {
     /// A table of colours by elevation.

@@ -13,7 +13,7 @@ pub struct Sphere {
     pub centre: DVec3,
     /// Its radius.
     pub radius: f64,
-    /// How pictures around it are turned.
+    /// Orientation of pictures around it.
     pub orientation: Orientation,
 }
 

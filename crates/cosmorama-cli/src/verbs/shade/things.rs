@@ -16,7 +16,7 @@ use super::model::model;
 use crate::args::{ObjectName, RefractName, ShadeArgs};
 use crate::failure::usage;
 
-/// What stands under the world.
+/// Things under a world, as they were asked for.
 pub(super) struct Things {
     pub(super) scene: Scene,
     pub(super) chrome: Chrome,
