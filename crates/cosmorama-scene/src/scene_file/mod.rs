@@ -365,7 +365,7 @@ world = "room"
         for (from, to, says) in [
             ("roughness", "rougness", &["line 13: unknown key `rougness`", "did you mean 'roughness'?"][..]),
             ("\"gold\"\n", "\"gould\"\n", &["line 19: there is no material 'gould'", "did you mean 'gold'?"]),
-            ("\"room\"\n", "\"rom\"\n", &["line 27: there is no world 'rom'", "did you mean 'room'?"]),
+            ("\"room\"\n", "\"rom\"\n", &["line 26: there is no world 'rom'", "did you mean 'room'?"]),
             ("box:8,3,6", "box:8,3", &["line 9", "box:8,3", "box:X,Y,Z"]),
             ("\"#ffcc66\"", "\"beige\"", &["line 14", "'beige'", "#rrggbb"]),
             ("metallic = 1", "metallic = 2", &["line 11", "2 is outside 0 to 1"]),

@@ -61,6 +61,7 @@ pub(crate) struct ShadeArgs {
         long,
         value_name = "FILE.toml",
         value_hint = ValueHint::FilePath,
+        hide_short_help = true,
         conflicts_with_all = ["object", "crease", "material", "texture", "dc", "sc", "alpha", "ior", "absorption", "refract", "surfaces"],
         help_heading = "Things"
     )]
@@ -74,7 +75,7 @@ pub(crate) struct ShadeArgs {
     /// A picture on what is matt or metallic-roughness: its colour
     ///
     /// It goes around a sphere by longitude and latitude; its middle faces +Z.
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = "Things")]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, hide_short_help = true, help_heading = "Things")]
     pub(crate) texture: Option<PathBuf>,
     /// Part of the light that is scattered: dc [default: the material's]
     #[arg(long, value_name = "F", value_parser = distance, allow_negative_numbers = true, help_heading = "Things")]
@@ -123,15 +124,15 @@ pub(crate) struct ShadeArgs {
     /// A world of its own for a part, NAME=WORLD; may be given again
     ///
     /// The spheres of a row are sphere1, sphere2 and so on.
-    #[arg(long, value_name = "NAME=WORLD", help_heading = "World")]
+    #[arg(long, value_name = "NAME=WORLD", hide_short_help = true, help_heading = "World")]
     pub(crate) part: Vec<PartName>,
     /// Walls that stand for a near world: box:X,Y,Z or sphere:RADIUS
     ///
     /// A reflected ray is met with them, and the world is looked up in the direction of that place from --centre.
-    #[arg(long, value_name = "WALLS", help_heading = "World")]
+    #[arg(long, value_name = "WALLS", hide_short_help = true, help_heading = "World")]
     pub(crate) proxy: Option<WallsName>,
     /// Point from which the world's picture was taken [default: 0,0,0]
-    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, requires = "proxy", help_heading = "World")]
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, requires = "proxy", hide_short_help = true, help_heading = "World")]
     pub(crate) centre: Option<Point>,
     /// The world's projection [default: found]
     #[arg(long, value_name = "SPEC", value_parser = listed::spec(), hide_possible_values = true, help_heading = "World")]
@@ -176,7 +177,7 @@ pub(crate) struct ShadeArgs {
     #[arg(long, value_name = "COLOR", default_value = "world", hide_default_value = true, help_heading = "Picture")]
     pub(crate) background: BackgroundName,
     /// As many pictures of a whole turn of the things, turn_####.png
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000), help_heading = "Picture")]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000), hide_short_help = true, help_heading = "Picture")]
     pub(crate) turntable: Option<u64>,
     /// Multiply the picture's light
     #[arg(long, value_name = "FACTOR", value_parser = factor, default_value_t = 1.0, allow_negative_numbers = true, hide_short_help = true, help_heading = "Picture")]
