@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use anyhow::Result;
 use cosmorama_convert::{CpuSeconds, InterpolationReport, LightReport, Remade, Report, Severity};
 use serde::Serialize;
+use serde_json::Value;
 
 use crate::console::{Console, in_options, say};
 
@@ -90,6 +91,11 @@ impl JsonLight {
             overflowed_samples: report.overflowed,
         }
     }
+}
+
+/// Returns the figures of maps of light, for programs.
+pub(crate) fn light(report: &Report) -> Result<Value> {
+    Ok(serde_json::to_value(report.light.iter().map(JsonLight::of).collect::<Vec<_>>())?)
 }
 
 /// Returns the report for programs.

@@ -80,6 +80,8 @@ pub struct Conversion {
     pub compression: Option<Compression>,
     /// Whether outputs get no metadata of inputs; tags of colours stay.
     pub strip: bool,
+    /// Further statements about the outputs, each under a name, where their format has a place for them.
+    pub remarks: Vec<Remark>,
     /// Limits of threads and memory.
     pub limits: LimitSettings,
     /// Source of the bytes of inputs; disk by default.
@@ -214,7 +216,7 @@ impl LightSettings {
             LightNormalisation::Irradiance => "irradiance",
             LightNormalisation::Radiance => "radiance",
         };
-        Remark { name: "lightUnit", text }
+        Remark { name: "lightUnit", text: text.into() }
     }
 
     /// Returns the factor of an average in the map.
@@ -341,6 +343,7 @@ impl Default for Conversion {
             quality: None,
             compression: None,
             strip: false,
+            remarks: Vec::new(),
             limits: LimitSettings::default(),
             files: Arc::new(Disk),
             unfinished: Unfinished::default(),

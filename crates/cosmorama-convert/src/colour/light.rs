@@ -313,7 +313,7 @@ fn metadata(
     let is_named = !working.primaries.is_same(&Primaries::REC709)
         || headers.first().is_some_and(|header| header.format == target.format && header.metadata.primaries.is_some());
     Metadata {
-        remarks: args.light.iter().map(LightSettings::remark).collect(),
+        remarks: args.light.iter().map(LightSettings::remark).chain(args.remarks.iter().cloned()).collect(),
         transfer: Some(transfer.clone()),
         icc: icc.filter(|_| keep),
         profile_fault: None,

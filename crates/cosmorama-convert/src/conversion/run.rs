@@ -83,29 +83,38 @@ impl Checked {
         let mut told = engine.told();
         told.extend(run.tally.warnings(job));
         // Maps of light are measured by frame.
+        let output = settings.output.as_str();
         if job.lighting.is_none() {
-            told.extend(too_bright(job, (None, 0), engine.writer().overflowed()));
+            told.extend(too_bright((job, output), (None, 0), engine.writer().overflowed()));
         }
         run.tell(told);
         // Frames that were being written at a stop are done by now.
         let interpolated =
             made.map_err(|error| if let ConvertError::Stopped { .. } = error { run.stopped() } else { error })?;
         let lit = engine.light_reports();
-        let told = lit.iter().filter_map(|report| too_bright(job, (report.frame, report.level), report.overflowed));
+        let told =
+            lit.iter().filter_map(|report| too_bright((job, output), (report.frame, report.level), report.overflowed));
         run.tell(told.collect());
         Ok((lit, interpolated))
     }
 }
 
 /// Returns the warning about light that the output's sample type cannot hold.
-fn too_bright(job: &ConvertJob, (frame, level): (Option<u64>, usize), samples: usize) -> Option<Diagnostic> {
-    let mut of_frame = frame.map_or_else(String::new, |frame| format!("frame {frame}: "));
+fn too_bright(
+    (job, output): (&ConvertJob, &str),
+    (frame, level): (Option<u64>, usize),
+    samples: usize,
+) -> Option<Diagnostic> {
+    let mut place = format!("{output}: ");
+    if let Some(frame) = frame {
+        place += &format!("frame {frame}: ");
+    }
     if level > 0 {
-        of_frame += &format!("level {level}: ");
+        place += &format!("level {level}: ");
     }
     (samples > 0).then(|| {
         let message = format!(
-            "{of_frame}{samples} {} brighter than {DEPTH} {} holds, and {} cut to its largest; write OpenEXR, Radiance, KTX 2 or \
+            "{place}{samples} {} brighter than {DEPTH} {} holds, and {} cut to its largest; write OpenEXR, Radiance, KTX 2 or \
              DDS files with {DEPTH} float",
             if samples == 1 { "sample is" } else { "samples are" },
             job.light.depth,

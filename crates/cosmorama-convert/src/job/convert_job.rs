@@ -24,7 +24,7 @@ use crate::job::Outputs;
 use crate::job::coverage::{Coverage, whole_worlds};
 use crate::settings::{BlurMethod, CameraMovement, Conversion, GeometrySettings, LightSettings};
 use crate::source::{Access, ChosenFiles, DecodedPicture, Files, MemoryBudget};
-use crate::target::{Movement, Target, TargetView, name_of_level, of_light, shape_warning, time};
+use crate::target::{Movement, Target, TargetView, name_of_level, of_light, shape_warning, time, whole_chain};
 
 /// A conversion, ready to run.
 pub(crate) struct ConvertJob {
@@ -68,6 +68,9 @@ pub(crate) enum Purpose {
     /// The light of the input alone: nothing is written.
     Light,
 }
+
+/// Format in whose range and sample types light is held that goes into no file: all of it fits.
+const LIGHT: Format = Format::Exr;
 
 /// Part of the memory, at most, that a picture decoded beforehand takes.
 const DECODED_PART: u64 = 8;
@@ -121,22 +124,32 @@ impl ConvertJob {
         let mut geometry = settled(&settings.geometry, file, access, warnings)?;
         let mut output = settings.output.clone();
         let levels = settings.light.as_ref().map_or(1, |light| light.levels.len());
-        if settings.light.is_some() {
+        if settings.light.is_some() && purpose == Purpose::Pictures {
             output = name_of_level(&output, 0);
             geometry = of_light(geometry, &output, levels);
         }
         let geometry = &geometry;
         // Mistakes in the settings themselves come first: they do not depend on any file.
-        let format = Target::check_names(&output, geometry)?;
+        let format = match purpose {
+            Purpose::Pictures => Target::check_names(&output, geometry)?,
+            Purpose::Light => LIGHT,
+        };
         check_file_options(settings, format)?;
         let mut input = content.input(settings, geometry, access, warnings)?;
         let parity = content.has_files().then(|| input.pixels_per_radian());
-        let mut target = Target::resolve(&output, geometry, parity)?;
+        let mut target = match purpose {
+            Purpose::Pictures => Target::resolve(&output, geometry, parity)?,
+            Purpose::Light => Target::none(LIGHT),
+        };
         if settings.mips {
             target = target.with_mips(&settings.output, geometry)?;
         }
-        if levels > 1 {
-            target = target.with_chain(&settings.output, geometry, levels)?;
+        let mut lighting = settings.light.clone();
+        if let Some(light) = lighting.as_mut().filter(|_| levels > 1) {
+            // The last level goes on, smaller and smaller.
+            let last = light.levels[levels - 1];
+            light.levels.resize(whole_chain(&settings.output, &target).unwrap_or(levels).max(levels), last);
+            target = target.with_chain(&settings.output, geometry, light.levels.len())?;
         }
         let movement = move_camera(settings, geometry, (&mut input, &target), access, warnings)?;
         warnings.extend(input.diagnostics());
@@ -178,7 +191,7 @@ impl ConvertJob {
             layers,
             outputs,
             coverage: Coverage::Complete,
-            lighting: settings.light.clone(),
+            lighting,
             missing,
             memory,
             decoded,

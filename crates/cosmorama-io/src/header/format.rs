@@ -21,7 +21,7 @@ pub enum Format {
     Exr,
     /// KTX 2 texture with the faces of a cube.
     Ktx2,
-    /// KTX texture of version 1 with the faces of a cube; read-only.
+    /// KTX texture of version 1 with the faces of a cube.
     Ktx,
     /// DirectDraw surface with the faces of a cube.
     Dds,
@@ -129,6 +129,7 @@ impl Properties {
         extensions: &["exr"],
         depths: &[Depth::Half, Depth::Float],
         primaries: HeldPrimaries::Any,
+        holds_levels: true,
         has_compression: true,
         ..Self::PLAIN
     };
@@ -136,8 +137,7 @@ impl Properties {
     const KTX2: Self =
         Self { name: "KTX 2", extensions: &["ktx2"], primaries: HeldPrimaries::Numbered, ..Self::TEXTURE };
 
-    // Recognised by content only, since such files are never written.
-    const KTX: Self = Self { name: "KTX", depths: &[], holds_levels: false, ..Self::TEXTURE };
+    const KTX: Self = Self { name: "KTX", extensions: &["ktx"], ..Self::TEXTURE };
 
     const DDS: Self = Self { name: "DDS", extensions: &["dds"], ..Self::TEXTURE };
 }

@@ -3,16 +3,15 @@ use clap::{Args, ValueEnum, ValueHint};
 use cosmorama::raster::Depth;
 use cosmorama::sphere::{Angle, Orientation};
 use cosmorama_convert::{Conversion, GeometrySettings};
-use cosmorama_io::FrameList;
 use cosmorama_spec::{DepthName, Missing, Size, Spec, TransferName};
 
 use super::lobe::LobeName;
 use super::roughness::RoughnessMapName;
-use crate::args::convert::{LimitArgs, frame_list};
+use crate::args::convert::{FilesArgs, RunArgs};
 use crate::args::parse::listed;
 use crate::args::parse::number::degrees;
 use crate::args::settings::existing;
-use crate::args::{ProgressStyle, with_examples};
+use crate::args::with_examples;
 
 /// Example commands in the help of `light diffuse`.
 pub(super) const DIFFUSE_EXAMPLES: [&str; 5] = [
@@ -159,26 +158,10 @@ pub(crate) struct MapArgs {
     /// Output sample type [default: the deepest of the format]
     #[arg(long, value_parser = listed::depth(), value_name = "DEPTH", help_heading = "Light")]
     pub(crate) depth: Option<DepthName>,
-    /// Which frames: 5, 1-10 or 1-3,5,7-20:2 [default: all]
-    #[arg(long, value_name = "LIST", value_parser = frame_list, allow_hyphen_values = true, help_heading = "Frames and files")]
-    pub(crate) frames: Option<FrameList>,
-    /// Replace existing outputs
-    #[arg(short = 'y', long, conflicts_with = "resume", help_heading = "Frames and files")]
-    pub(crate) overwrite: bool,
-    /// Skip outputs that are already complete
-    #[arg(long, help_heading = "Frames and files")]
-    pub(crate) resume: bool,
-    /// Fail where a folder of an output does not exist
-    #[arg(long, hide_short_help = true, help_heading = "Frames and files")]
-    pub(crate) no_mkdir: bool,
     #[command(flatten)]
-    pub(crate) limits: LimitArgs,
-    /// How to tell what is going on, on standard error
-    #[arg(long, value_enum, value_name = "STYLE", default_value_t = ProgressStyle::Auto, hide_short_help = true, help_heading = "Run")]
-    pub(crate) progress: ProgressStyle,
-    /// Print a machine-readable report on standard output
-    #[arg(long, help_heading = "Run")]
-    pub(crate) json: bool,
+    pub(crate) files: FilesArgs,
+    #[command(flatten)]
+    pub(crate) run: RunArgs,
 }
 
 impl From<MapArgs> for Conversion {
@@ -198,10 +181,10 @@ impl From<MapArgs> for Conversion {
             transfer: args.transfer,
             depth: args.depth.map(Depth::from),
             missing: args.missing,
-            frames: args.frames,
-            existing: existing(args.overwrite, args.resume),
-            make_folders: !args.no_mkdir,
-            limits: args.limits.into(),
+            frames: args.files.frames,
+            existing: existing(args.files.overwrite, args.files.resume),
+            make_folders: !args.files.no_mkdir,
+            limits: args.run.limits.into(),
             ..Self::default()
         }
     }

@@ -227,7 +227,11 @@ fn mistakes_about_chains_are_answered() {
     let fail = |args: &[&str], says: &[&str]| {
         assert_says(&bench.fail(2, &[&["light", "specular", "sky.exr"], args].concat()), says);
     };
-    fail(&["chain.exr", "--levels", "5"], &["chain.exr is OpenEXR", "5 levels", ".ktx2 or .dds", "chain_{level}.exr"]);
+    fail(
+        &["chain.hdr", "--levels", "5"],
+        &["chain.hdr is Radiance HDR", "5 levels", ".ktx2, .dds or .exr", "chain_{level}.hdr"],
+    );
+    fail(&["chain.exr", "--levels", "5", "--to", "cube"], &["chain.exr", "down to one pixel", "{face}", ".ktx2"]);
     fail(&["chain.ktx2", "--levels", "5", "--size", "8"], &["--levels", "8x8 pixels have 4 at most", "--size"]);
     fail(&["chain.ktx2", "--levels", "0"], &["expected a number from 1 to 16"]);
     fail(&["chain.ktx2", "--levels", "3", "--alpha", "0,0.5"], &["--levels is 3, but --alpha has 2 values"]);
