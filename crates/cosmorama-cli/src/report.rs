@@ -72,6 +72,8 @@ struct JsonLight {
     shown: f64,
     peak_in: f32,
     peak_out: f32,
+    /// Factor by which the light is written.
+    scale: f64,
     overflowed_samples: usize,
 }
 
@@ -88,6 +90,7 @@ impl JsonLight {
             shown: input.shown,
             peak_in: input.peak,
             peak_out: output.peak,
+            scale: report.scale,
             overflowed_samples: report.overflowed,
         }
     }

@@ -9,7 +9,7 @@ use rayon::ThreadPool;
 use rayon::prelude::*;
 
 use super::{Checked, Observer, Report, Stop, Work, watched};
-use crate::diagnostic::{Code, ConvertError, DEPTH, Diagnostic, Result};
+use crate::diagnostic::{Code, ConvertError, DEPTH, Diagnostic, Result, SCALE};
 use crate::engine::unfiltered::{OutputFile, formula, st_map};
 use crate::engine::{
     Engine, FrameFile, FrameLight, InterpolationReport, Levels, LightReport, Sequence, Stage, Stages, ViewImage,
@@ -17,6 +17,7 @@ use crate::engine::{
 };
 use crate::job::options::write_options;
 use crate::job::{Content, ConvertJob, FrameOutputs};
+use crate::settings::LightScale;
 
 impl Checked {
     /// Makes the outputs. Each appears whole or not at all.
@@ -94,9 +95,23 @@ impl Checked {
         let lit = engine.light_reports();
         let told =
             lit.iter().filter_map(|report| too_bright((job, output), (report.frame, report.level), report.overflowed));
-        run.tell(told.collect());
+        run.tell(told.chain(lit.first().and_then(|report| fitted(job, output, report.scale))).collect());
         Ok((lit, interpolated))
     }
+}
+
+/// Returns the warning about light that was scaled to fit the output's sample type.
+fn fitted(job: &ConvertJob, output: &str, scale: f64) -> Option<Diagnostic> {
+    let is_asked = job.lighting.as_ref().is_some_and(|light| light.scale == LightScale::Fitting);
+    (is_asked && scale != 1.0).then(|| {
+        let message = format!(
+            "{output}: the light is written times {scale}, so that all of it fits {DEPTH} {}; times {} it is what it was (lightScale in \
+             files that have a place for it)",
+            job.light.depth,
+            scale.recip()
+        );
+        Diagnostic::warning(Code::TooBright, message)
+    })
 }
 
 /// Returns the warning about light that the output's sample type cannot hold.
@@ -112,10 +127,11 @@ fn too_bright(
     if level > 0 {
         place += &format!("level {level}: ");
     }
+    let scale = if job.lighting.is_some() { format!(", or give {SCALE} auto") } else { String::new() };
     (samples > 0).then(|| {
         let message = format!(
             "{place}{samples} {} brighter than {DEPTH} {} holds, and {} cut to its largest; write OpenEXR, Radiance, KTX 2 or \
-             DDS files with {DEPTH} float",
+             DDS files with {DEPTH} float{scale}",
             if samples == 1 { "sample is" } else { "samples are" },
             job.light.depth,
             if samples == 1 { "is" } else { "are" }

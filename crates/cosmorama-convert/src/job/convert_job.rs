@@ -17,12 +17,12 @@ use super::memory_needs::gathered_bytes;
 use super::options::{check_file_options, filter};
 use crate::colour::{LayerPlan, Light, check_choice, check_labels};
 use crate::detect::unless_damaged;
-use crate::diagnostic::{Code, Diagnostic, MOTION, PATH, Result, SHUTTER, YAW, usage};
+use crate::diagnostic::{Code, Diagnostic, MOTION, PATH, Result, SCALE, SHUTTER, YAW, usage};
 use crate::input::Input;
 use crate::input::spec_files::st_map::settled;
 use crate::job::Outputs;
 use crate::job::coverage::{Coverage, whole_worlds};
-use crate::settings::{BlurMethod, CameraMovement, Conversion, GeometrySettings, LightSettings};
+use crate::settings::{BlurMethod, CameraMovement, Conversion, GeometrySettings, LightScale, LightSettings};
 use crate::source::{Access, ChosenFiles, DecodedPicture, Files, MemoryBudget};
 use crate::target::{Movement, Target, TargetView, name_of_level, of_light, shape_warning, time, whole_chain};
 
@@ -175,6 +175,12 @@ impl ConvertJob {
             Purpose::Light => Outputs::none(&input),
         };
         warnings.extend(outputs.warning());
+        if outputs.frames.len() > 1 && lighting.as_ref().is_some_and(|light| light.scale == LightScale::Fitting) {
+            return Err(usage(format!(
+                "{SCALE} auto would scale each of {} frames by its own factor; give one for all, as in {SCALE} 0.25",
+                outputs.frames.len()
+            )));
+        }
         let missing = match settings.missing {
             Missing::Fill(colour) => Missing::Fill(light.colour(colour)?),
             Missing::Error => Missing::Error,
@@ -219,7 +225,10 @@ impl ConvertJob {
             memory.check_frame(input, target)?;
             let blocks: u64 = worlds.iter().flat_map(World::sources).map(|source| gathered_bytes(&source.view)).sum();
             let bands = PreparedLight::bytes_for(&lighting.lobes()) as u64 * worlds.len() as u64;
-            self.memory = memory.beside_levels(blocks.saturating_add(bands), input, target)?;
+            let memory = memory.beside_levels(blocks.saturating_add(bands), input, target)?;
+            // The map before, the one after, and all between; another where the error is measured.
+            let copies = lighting.every.map_or(0, |every| every.frames.min(input.frames.len()) + 2);
+            self.memory = memory.beside_maps(copies as u64, input, target)?;
             (self.coverage, self.worlds) = (coverage, worlds);
             return Ok(());
         }

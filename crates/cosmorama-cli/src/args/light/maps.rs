@@ -2,7 +2,7 @@ use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueEnum, ValueHint};
 use cosmorama::raster::Depth;
 use cosmorama::sphere::{Angle, Orientation};
-use cosmorama_convert::{Conversion, GeometrySettings};
+use cosmorama_convert::{Conversion, GeometrySettings, LightScale};
 use cosmorama_spec::{DepthName, Missing, Size, Spec, TransferName};
 
 use super::lobe::LobeName;
@@ -72,8 +72,8 @@ pub(crate) struct SpecularArgs {
     pub(crate) alpha: Vec<f64>,
     /// Make a chain of N maps, each of half the size: a mirror first, then rougher and rougher
     ///
-    /// One KTX 2 or DDS file holds all as mip levels of a cube; in other formats, OUTPUT has {level} where the number of a level
-    /// stands, from 0.
+    /// One KTX 2, KTX or DDS file holds all as mip levels of a cube, one OpenEXR file those of a panorama; in other formats, OUTPUT has
+    /// {level} where the number of a level stands, from 0.
     #[arg(long, value_name = "N", value_parser = levels, allow_negative_numbers = true, help_heading = "Light")]
     pub(crate) levels: Option<usize>,
     /// How α grows along a chain: linear, squared (default), filament, gltf, unreal, three
@@ -99,6 +99,14 @@ pub(crate) enum Method {
 
 fn every(text: &str) -> Result<usize, String> {
     text.parse().ok().filter(|frames| *frames > 0).ok_or_else(|| "expected a number of frames, 1 at least".to_owned())
+}
+
+fn scale(text: &str) -> Result<LightScale, String> {
+    if text == "auto" {
+        return Ok(LightScale::Fitting);
+    }
+    let factor = text.parse().ok().filter(|factor: &f64| factor.is_finite() && *factor > 0.0);
+    factor.map(LightScale::Factor).ok_or_else(|| "expected auto, or a factor more than 0, as in 0.25".to_owned())
 }
 
 fn levels(text: &str) -> Result<usize, String> {
@@ -149,6 +157,11 @@ pub(crate) struct MapArgs {
     /// The default takes together texels over which the lobe hardly bends; docs/light.md says how near it is.
     #[arg(long, help_heading = "Light")]
     pub(crate) exact: bool,
+    /// Write the light times FACTOR, or auto: times the power of two with which all of it fits
+    ///
+    /// Half floats end at 65504, and integers at 1. The file says what it was, lightScale, where it has a place for that.
+    #[arg(long, value_name = "auto|FACTOR", value_parser = scale, allow_negative_numbers = true, default_value = "1", hide_default_value = true, help_heading = "Light")]
+    pub(crate) scale: LightScale,
     /// What no view covers: error (default), transparent or a colour
     #[arg(long, value_name = "COLOR", default_value = "error", hide_default_value = true, help_heading = "Light")]
     pub(crate) missing: Missing,

@@ -21,16 +21,16 @@ pub(super) fn diffuse(args: DiffuseArgs, console: &mut Console) -> Result<ExitCo
         Unit::Irradiance => LightNormalisation::Irradiance,
         Unit::Radiance => LightNormalisation::Radiance,
     };
-    let exact = map.exact;
+    let (exact, scale) = (map.exact, map.scale);
     let every = every.map(|frames| Every { frames, measured: every_error });
-    make(map, LightSettings { exact, every, ..LightSettings::map(Lobe::LAMBERT, normalisation) }, console)
+    make(map, LightSettings { exact, every, scale, ..LightSettings::map(Lobe::LAMBERT, normalisation) }, console)
 }
 
 /// Makes a map of reflections, or a chain of them.
 pub(super) fn specular(args: SpecularArgs, console: &mut Console) -> Result<ExitCode> {
     let levels = levels(&args)?;
-    let light =
-        LightSettings { levels, normalisation: LightNormalisation::Radiance, exact: args.map.exact, every: None };
+    let (exact, scale) = (args.map.exact, args.map.scale);
+    let light = LightSettings { levels, normalisation: LightNormalisation::Radiance, exact, every: None, scale };
     make(args.map, light, console)
 }
 

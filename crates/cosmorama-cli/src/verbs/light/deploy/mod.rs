@@ -28,6 +28,9 @@ use preset::{Part, Preset};
 /// Columns of a face of the light on matt surfaces.
 const DIFFUSE_EDGE: usize = 32;
 
+/// Columns of a face from which on a level of the sky is a picture.
+const SHARP_EDGE: usize = 16;
+
 /// Writes a folder for an engine.
 pub(super) fn run(mut args: DeployArgs, console: &mut Console) -> Result<ExitCode> {
     let mut kept = KeptStreams::default();
@@ -110,9 +113,8 @@ impl Deployment<'_> {
     fn make(&self, file: &str, part: Part) -> Result<Value> {
         let path = self.folder.join(file);
         let (size, sky) = (self.args.size, self.args.sky_size);
-        let mirrors = |edge: usize| vec![LightLevel::Mirror; edge.ilog2() as usize + 1];
         match part {
-            Part::Sky => self.map(&path, (self.preset.cube, sky), mirrors(sky), Vec::new()),
+            Part::Sky => self.map(&path, (self.preset.cube, sky), levels_of_sky(sky)?, Vec::new()),
             Part::Panorama => self.map(&path, ("equirect", 4 * sky), vec![LightLevel::Mirror], Vec::new()),
             Part::Diffuse => {
                 self.map(&path, (self.preset.cube, DIFFUSE_EDGE), vec![LightLevel::Lobe(Lobe::LAMBERT)], Vec::new())
@@ -167,7 +169,8 @@ impl Deployment<'_> {
             orientation,
             ..self.world.geometry.clone()
         };
-        let light = LightSettings { levels, normalisation: LightNormalisation::Radiance, exact: false, every: None };
+        let usual = LightSettings::map(Lobe::LAMBERT, LightNormalisation::Radiance);
+        let light = LightSettings { levels, ..usual };
         let conversion = Conversion {
             output: path.display().to_string(),
             geometry,
@@ -199,6 +202,15 @@ impl Deployment<'_> {
         });
         Ok((stored, told))
     }
+}
+
+/// Returns the levels of the sky: pictures of it, and soft ones where a sun's light would depend on where in a pixel it falls.
+fn levels_of_sky(edge: usize) -> Result<Vec<LightLevel>> {
+    let level = |level: u32| {
+        let edge = edge >> level;
+        if edge >= SHARP_EDGE { Ok(LightLevel::Mirror) } else { Ok(LightLevel::Lobe(Lobe::ggx((edge as f64).recip())?)) }
+    };
+    (0..=edge.ilog2()).map(level).collect()
 }
 
 /// Writes a file of text.

@@ -108,12 +108,13 @@ static BEVY: Preset = Preset {
     ],
 };
 
-/// Godot: `sky.glsl` puts a panorama's middle at +z, and shaders look cubes up by directions as they are.
+/// Godot: `sky.glsl` puts a panorama's middle at +z, and shaders look cubes up by directions as they are. Its images have all levels, down
+/// to one pixel, or none.
 static GODOT: Preset = Preset {
     cube: RIGHT_HANDED,
     turn: [0.0, 0.0],
     roughness: RoughnessMap::Squared,
-    last: 3,
+    last: 0,
     parts: &[
         ("sky.exr", Part::Panorama),
         ("environment.tres", Part::Text(include_str!("texts/godot.tres"))),
