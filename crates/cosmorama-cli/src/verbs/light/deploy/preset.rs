@@ -8,7 +8,7 @@ pub(super) struct Preset {
     pub(super) cube: &'static str,
     /// Yaw and pitch of its cubes, in degrees.
     pub(super) turn: [f64; 2],
-    /// How rough the levels of a chain are.
+    /// Roughness of the levels of a chain.
     pub(super) roughness: RoughnessMap,
     /// Binary logarithm of the size of faces in the last level.
     pub(super) last: u32,
