@@ -1,6 +1,6 @@
 use std::path::Path;
-use std::sync::{Arc, OnceLock};
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, OnceLock};
 
 use cosmorama::raster::{Depth, EncodedImage, Encoder, Image, Rgba, Threads};
 use cosmorama_io::{Carried, LayeredImage, Plane, Remark, WriteOptions, write_layers, write_levels};

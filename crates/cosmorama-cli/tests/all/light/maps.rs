@@ -351,12 +351,14 @@ fn a_scale_keeps_suns_within_halves() {
     bench.succeed(&["light", "diffuse", "sky.exr", "half.exr", "--scale", "0.5"]);
     let pairs = light(&bench, "one.exr").into_iter().zip(light(&bench, "half.exr"));
     assert!(pairs.into_iter().all(|(one, half)| one.map(|light| 0.5 * light) == half));
-    for (name, says) in [("a.tga", "TGA has no place"), ("a.dds", "DDS has no place")] {
+    // Integers end at 1; this irradiance is within halves.
+    for (name, says) in [("a.tga", &["TGA has no place", "irradiance", "written times"][..]), ("a.dds", &["DDS has no place"])] {
         let args = ["light", "diffuse", "sky.exr", name, "--scale", "auto"];
-        assert_says(&text(&bench.run(&args).stderr), &[says, "irradiance", "written times"]);
+        assert_says(&text(&bench.run(&args).stderr), says);
     }
     bench.succeed(&["light", "diffuse", "sky.exr", "a.jpg", "--scale", "auto"]);
-    let comment = |bytes: &[u8]| bytes.windows(35).any(|bytes| bytes.starts_with(b"lightUnit: irradiance; lightScale: "));
+    let comment =
+        |bytes: &[u8]| bytes.windows(35).any(|bytes| bytes.starts_with(b"lightUnit: irradiance; lightScale: "));
     assert!(comment(&bench.bytes("a.jpg")));
     for frame in ["1", "2"] {
         std::fs::copy(bench.path("sky.exr"), bench.path(&format!("sky.000{frame}.exr"))).unwrap();
@@ -371,9 +373,11 @@ fn a_scale_keeps_suns_within_halves() {
 fn a_chain_is_in_the_mip_levels_of_openexr() {
     let bench = Bench::new();
     save_sky(&bench, "sky.exr", 64, |i, j| [1.0 + (i % 7) as f32, j as f32, 3.0]);
-    let chain = ["light", "specular", "sky.exr", "--size", "64", "--json"];
+    let chain = ["light", "specular", "sky.exr", "--json"];
     let run = |args: &[&str]| -> Value { serde_json::from_str(&bench.succeed(&[&chain[..], args].concat())).unwrap() };
-    let (whole, apart) = (run(&["mips.exr", "--levels", "3"]), run(&["level_{level}.exr", "--levels", "3"]));
+    let three = ["--levels", "3", "--size", "64"];
+    let (whole, apart) =
+        (run(&[&["mips.exr"][..], &three[..]].concat()), run(&[&["level_{level}.exr"][..], &three[..]].concat()));
     let alphas = |report: &Value| -> Vec<f64> {
         report["light"].as_array().unwrap().iter().map(|level| level["alpha"].as_f64().unwrap()).collect()
     };

@@ -141,9 +141,14 @@ fn suns_of_sequences_are_taken_out_frame_by_frame() {
     for (number, frame) in (3..).zip(frames) {
         let yaw = (f64::from(10 * number) + 0.5) / 128.0 * 360.0 - 180.0;
         assert!((frame["suns"][0]["yaw"].as_f64().unwrap() - yaw).abs() < 0.05, "{frame}");
-        assert!(light(&bench, &format!("left/{number:04}.exr")).iter().flatten().all(|light| (light - 0.2).abs() < 1e-6));
+        assert!(
+            light(&bench, &format!("left/{number:04}.exr")).iter().flatten().all(|light| (light - 0.2).abs() < 1e-6)
+        );
     }
-    assert_says(&bench.succeed(&["light", "sun", "sky.####.exr", "--remove", "left/####.exr", "--frames", "4", "-y"]), &["frame 4:"]);
+    assert_says(
+        &bench.succeed(&["light", "sun", "sky.####.exr", "--remove", "left/####.exr", "--frames", "4", "-y"]),
+        &["frame 4:"],
+    );
     assert_says(&bench.fail(1, &["light", "sun", "sky.####.exr", "--remove", "left/####.exr"]), &["3 outputs exist"]);
     assert_says(&bench.fail(2, &["light", "sun", "sky.0003.exr", "--remove", "left.####.exr"]), &["frame marker"]);
 }

@@ -91,7 +91,10 @@ impl Codec for Jpeg {
             packet.map_or_else(Vec::new, |packet| segment(b"http://ns.adobe.com/xap/1.0/\0", packet.as_bytes()));
         let (start, rest) = bytes.split_at(end_of_jfif(&bytes));
         let comment = comment(metadata);
-        [start, &exif, &packet, &comment, rest].iter().try_for_each(|part| output.write_all(part)).map_err(|error| fail(&error))
+        [start, &exif, &packet, &comment, rest]
+            .iter()
+            .try_for_each(|part| output.write_all(part))
+            .map_err(|error| fail(&error))
     }
 }
 

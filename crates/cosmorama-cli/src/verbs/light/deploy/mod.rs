@@ -208,7 +208,11 @@ impl Deployment<'_> {
 fn levels_of_sky(edge: usize) -> Result<Vec<LightLevel>> {
     let level = |level: u32| {
         let edge = edge >> level;
-        if edge >= SHARP_EDGE { Ok(LightLevel::Mirror) } else { Ok(LightLevel::Lobe(Lobe::ggx((edge as f64).recip())?)) }
+        if edge >= SHARP_EDGE {
+            Ok(LightLevel::Mirror)
+        } else {
+            Ok(LightLevel::Lobe(Lobe::ggx((edge as f64).recip())?))
+        }
     };
     (0..=edge.ilog2()).map(level).collect()
 }
