@@ -1,15 +1,16 @@
 // Cubes in KTX 2 and DDS files, as other programs see them: three.js reads our KTX 2, and a reader of its own, which
 // shares no code with us, our DDS of half floats; their smaller copies, too. What they find is compared with the same faces in a TGA file.
 //
-//   node .ci/textures.mjs PROGRAM FOLDER_OF_THREE
+//   node .ci/textures.mjs PROGRAM FOLDER_OF_THREE FOLDER_OF_FILAMENT
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { copyFileSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 
-const [program, three] = process.argv.slice(2).map((path) => resolve(path));
+const [program, three, filament] = process.argv.slice(2).map((path) => resolve(path));
 const load = (path) => import(pathToFileURL(join(three, path)));
 const { DataUtils, HalfFloatType, RGBAFormat, SRGBColorSpace, UnsignedByteType } = await load("build/three.module.js");
 const { KTX2Loader } = await load("examples/jsm/loaders/KTX2Loader.js");
@@ -140,6 +141,71 @@ function compare(what, found, expected, allowed, code) {
   console.log(`${what}: six faces of ${EDGE}x${EDGE}, largest difference ${worst.toFixed(3)} codes of 255`);
 }
 
+/** The colours, in codes, of the texel that three.js shows in a direction of a cube that it loads (WebGLMaterials.js negates x). */
+function shown(cube, level, [x, y, z]) {
+  const [faces, s, t] =
+    Math.abs(x) > Math.max(Math.abs(y), Math.abs(z)) ? [x > 0 ? 1 : 0, z / x, -y / Math.abs(x)]
+    : Math.abs(y) > Math.abs(z) ? [y > 0 ? 2 : 3, -x / Math.abs(y), z / y]
+    : [z > 0 ? 4 : 5, -x / z, -y / Math.abs(z)];
+  const { data, width } = cube.image[faces].mipmaps[level];
+  const place = (at) => Math.floor(((at + 1) / 2) * width);
+  const first = 4 * (place(t) * width + place(s));
+  return [...data.slice(first, first + 3)].map((bits) => srgb(DataUtils.fromHalfFloat(bits)));
+}
+
+/** A folder for three.js: its module makes cubes that show each face where a panorama would, upright and not mirrored. */
+async function checkFolder() {
+  const sizes = ["--size", "64", "--sky-size", "64"];
+  execFileSync(program, ["light", "deploy", at("{face}.tga"), at("three"), "--preset", "three", ...sizes], { stdio: "pipe" });
+  const module = join(three, "../../light.mjs");
+  copyFileSync(at("three/light.js"), module);
+  const { cube, probe } = await import(pathToFileURL(module));
+  const texture = async (name) => {
+    const loader = new KTX2Loader();
+    loader.workerConfig = {};
+    return cube(await new Promise((done, failed) => loader.parse(bytes(name).buffer, done, failed)));
+  };
+  const [sky, chain] = [await texture("three/sky.ktx2"), await texture("three/specular.ktx2")];
+  assert.deepEqual([sky, chain].map((made) => made.image[0].mipmaps.length), [7, 4]);
+  assert.ok(sky.isCompressedCubeTexture && sky.type === HalfFloatType && sky.format === RGBAFormat);
+  // The middle of a panorama is at +x, its right half towards +z.
+  const axes = { front: [1, 0, 0], right: [0, 0, 1], back: [-1, 0, 0], left: [0, 0, -1], top: [0, 1, 0], bottom: [0, -1, 0] };
+  const right = { front: [0, 0, 1], right: [-1, 0, 0], back: [0, 0, -1], left: [1, 0, 0], top: [0, 0, 1], bottom: [0, 0, 1] };
+  Object.entries(axes).forEach(([name, axis], index) => {
+    const [from, to] = [-0.5, 0.5].map((step) => shown(sky, 0, axis.map((part, k) => part + step * right[name][k])));
+    assert.ok(Math.abs(from[0] - 40 * index) < 3 && Math.abs(to[0] - 40 * index) < 3, `${name}: ${from}, ${to}`);
+    assert.ok(Math.abs(to[2] - from[2] - 2 * EDGE) < 6 && Math.abs(to[1] - from[1]) < 3, `${name}: ${from}, ${to}`);
+  });
+  // Roughness 1 is the light on matt surfaces, as nine coefficients have it, to what these miss.
+  const light = probe(JSON.parse(readFileSync(at("three/probe.json"))));
+  const { Vector3 } = await load("build/three.module.js");
+  for (const axis of Object.values(axes)) {
+    const irradiance = light.sh.getIrradianceAt(new Vector3(...axis), new Vector3());
+    const matt = shown(chain, 3, axis).map((code) => Math.PI * (code <= 10.31475 ? code / 3294.6 : ((code / 255 + 0.055) / 1.055) ** 2.4));
+    [irradiance.x, irradiance.y, irradiance.z].forEach((value, k) => assert.ok(Math.abs(value - matt[k]) < 0.1, `${axis}: ${value}, ${matt[k]}`));
+  }
+  console.log("light deploy --preset three: two cubes and a probe in three.js");
+}
+
+/** Filament's reader finds cubes of halves with their levels, and nine coefficients. */
+async function checkFilament() {
+  const sizes = ["--size", "64", "--sky-size", "64"];
+  execFileSync(program, ["light", "deploy", at("{face}.tga"), at("hall"), "--preset", "filament", ...sizes], { stdio: "pipe" });
+  const start = createRequire(import.meta.url)(join(filament, "filament.js"));
+  const module = await start({ wasmBinary: readFileSync(join(filament, "filament.wasm")) });
+  for (const [name, levels] of [["hall/hall_skybox.ktx", 7], ["hall/hall_ibl.ktx", 3]]) {
+    const file = bytes(name);
+    const buffer = new module.driver$BufferDescriptor(file.length);
+    buffer.getBytes().set(file);
+    const ktx = new module.Ktx1Bundle(buffer);
+    assert.deepEqual([ktx.isCubemap(), ktx.getNumMipLevels()], [true, levels]);
+    assert.equal(ktx.getInternalFormat(false), module.Texture$InternalFormat.RGBA16F);
+    assert.equal(ktx.getPixelDataType(), module.PixelDataType.HALF);
+    if (levels === 3) assert.equal(ktx.getMetadata("sh").trim().split(/\s+/).filter((text) => Number.isFinite(Number(text))).length, 27);
+  }
+  console.log("light deploy --preset filament: two cubes and harmonics in Filament");
+}
+
 try {
   ["front", "right", "back", "left", "top", "bottom"].forEach(drawFace);
   convert("strip.tga", "--to", "cube:layout=strip-v,order=opengl");
@@ -171,6 +237,8 @@ try {
     compareLevels(`${name} in three.js`, texture.mipmaps.map((level) => level.data), allowed, read, options);
   }
   compareLevels("mips-half.dds by the reference", readDdsLevels("mips-half.dds"), 0.6, code);
+  await checkFolder();
+  await checkFilament();
 } finally {
   rmSync(folder, { recursive: true });
 }

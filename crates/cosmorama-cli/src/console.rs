@@ -1,9 +1,11 @@
 //! Output of messages and reports. Files that stand for streams (standard input and output, pipes) get readable names
 //! in it.
 
+use std::collections::HashSet;
 use std::fmt::Display;
 use std::io::{ErrorKind, Write, stderr, stdout};
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
 
 use anyhow::{Context, Result};
 use cosmorama_convert::{Diagnostic, Message, Outcome, Setting, Severity};
@@ -18,6 +20,8 @@ pub(crate) struct Console {
     pub(crate) verbose: bool,
     /// Files that are being written; an interrupt removes them.
     pub(crate) unfinished: Unfinished,
+    /// Diagnostics that were printed: none is twice.
+    said: Mutex<HashSet<String>>,
 }
 
 impl Console {
@@ -47,7 +51,10 @@ impl Console {
 
     fn tell(&self, diagnostic: &Diagnostic) {
         let kind = if diagnostic.severity == Severity::Note { "note" } else { "warning" };
-        say(format_args!("{kind}: {}", self.told(&in_options(&diagnostic.message))));
+        let line = format!("{kind}: {}", self.told(&in_options(&diagnostic.message)));
+        if self.said.lock().unwrap_or_else(PoisonError::into_inner).insert(line.clone()) {
+            say(line);
+        }
     }
 
     /// Prints a requested text on standard output.

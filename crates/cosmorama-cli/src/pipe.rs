@@ -139,7 +139,7 @@ fn check(args: &ConvertArgs, to_stdout: bool) -> Result<()> {
             "--format is for standard output, but the extension of {} chooses the format; leave --format out",
             args.output
         ))),
-        (true, _) if args.resume => {
+        (true, _) if args.files.resume => {
             Err(usage("--resume skips files that are there, but the output is standard output; leave --resume out"))
         }
         (true, None) => {
@@ -149,7 +149,7 @@ fn check(args: &ConvertArgs, to_stdout: bool) -> Result<()> {
             "--format {format}: no format of this name can be written; use one of {}",
             Format::extensions()
         ))),
-        (true, Some(_)) if args.json => Err(usage(
+        (true, Some(_)) if args.run.json => Err(usage(
             "--json would print its report into the picture on standard output; leave it out, or name an output file",
         )),
         (true, Some(_)) if stdout().is_terminal() => {

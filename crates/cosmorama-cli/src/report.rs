@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use anyhow::Result;
 use cosmorama_convert::{CpuSeconds, InterpolationReport, LightReport, Remade, Report, Severity};
 use serde::Serialize;
+use serde_json::Value;
 
 use crate::console::{Console, in_options, say};
 
@@ -71,6 +72,8 @@ struct JsonLight {
     shown: f64,
     peak_in: f32,
     peak_out: f32,
+    /// Factor by which the light is written.
+    scale: f64,
     overflowed_samples: usize,
 }
 
@@ -87,9 +90,15 @@ impl JsonLight {
             shown: input.shown,
             peak_in: input.peak,
             peak_out: output.peak,
+            scale: report.scale,
             overflowed_samples: report.overflowed,
         }
     }
+}
+
+/// Returns the figures of maps of light, for programs.
+pub(crate) fn light(report: &Report) -> Result<Value> {
+    Ok(serde_json::to_value(report.light.iter().map(JsonLight::of).collect::<Vec<_>>())?)
 }
 
 /// Returns the report for programs.

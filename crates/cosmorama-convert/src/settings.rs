@@ -80,6 +80,8 @@ pub struct Conversion {
     pub compression: Option<Compression>,
     /// Whether outputs get no metadata of inputs; tags of colours stay.
     pub strip: bool,
+    /// Further statements about the outputs, each under a name, where their format has a place for them.
+    pub remarks: Vec<Remark>,
     /// Limits of threads and memory.
     pub limits: LimitSettings,
     /// Source of the bytes of inputs; disk by default.
@@ -165,6 +167,27 @@ pub struct LightSettings {
     pub exact: bool,
     /// Frames of a sequence that are computed; all, unless given.
     pub every: Option<Every>,
+    /// Scale of the light in the file.
+    pub scale: LightScale,
+}
+
+/// Scale of the light in a file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LightScale {
+    /// Light is written times a factor.
+    Factor(f64),
+    /// Light is written times the largest power of two, at most 1, with which all of it fits the file's sample type.
+    Fitting,
+}
+
+impl LightScale {
+    /// Light as it is.
+    pub const NONE: Self = Self::Factor(1.0);
+
+    /// Returns the statement of a factor for a file; `None` if light is as it is.
+    pub(crate) fn remark(factor: f64) -> Option<Remark> {
+        (factor != 1.0).then(|| Remark { name: "lightScale", text: factor.to_string().into() })
+    }
 }
 
 /// Rule by which some frames of a sequence are computed, and the others interpolated between them.
@@ -199,7 +222,8 @@ pub enum LightNormalisation {
 impl LightSettings {
     /// Returns the settings of a single map under a lobe.
     pub fn map(lobe: Lobe, normalisation: LightNormalisation) -> Self {
-        Self { levels: vec![LightLevel::Lobe(lobe)], normalisation, exact: false, every: None }
+        let levels = vec![LightLevel::Lobe(lobe)];
+        Self { levels, normalisation, exact: false, every: None, scale: LightScale::NONE }
     }
 
     /// Returns the lobes of its levels.
@@ -208,17 +232,19 @@ impl LightSettings {
         self.levels.iter().filter_map(lobe).collect()
     }
 
-    /// Returns the statement of the map's unit for its file.
-    pub(crate) fn remark(&self) -> Remark {
+    /// Returns the statements of the map's unit and scale for its file, as far as they are known before it is made.
+    pub(crate) fn remarks(&self) -> Vec<Remark> {
         let text = match self.normalisation {
             LightNormalisation::Irradiance => "irradiance",
             LightNormalisation::Radiance => "radiance",
         };
-        Remark { name: "lightUnit", text }
+        let unit = Remark { name: "lightUnit", text: text.into() };
+        let scale = if let LightScale::Factor(factor) = self.scale { LightScale::remark(factor) } else { None };
+        std::iter::once(unit).chain(scale).collect()
     }
 
     /// Returns the factor of an average in the map.
-    pub fn scale(&self) -> f64 {
+    pub fn factor(&self) -> f64 {
         match self.normalisation {
             LightNormalisation::Irradiance => Lobe::LAMBERT.integral(),
             LightNormalisation::Radiance => 1.0,
@@ -341,6 +367,7 @@ impl Default for Conversion {
             quality: None,
             compression: None,
             strip: false,
+            remarks: Vec::new(),
             limits: LimitSettings::default(),
             files: Arc::new(Disk),
             unfinished: Unfinished::default(),

@@ -151,6 +151,33 @@ pub(crate) struct ConvertArgs {
     /// Pixels that look where no view of the input does.
     #[arg(long, value_name = "COLOR", default_value = "error", hide_default_value = true, help_heading = "Light")]
     pub(crate) missing: Missing,
+    #[command(flatten)]
+    pub(crate) files: FilesArgs,
+    /// The format of standard output, as in --format png
+    #[arg(long, value_name = "EXT", help_heading = "Frames and files")]
+    pub(crate) format: Option<String>,
+    /// KTX2 and DDS: add the smaller copies (mips), each made as a picture of its size would be
+    #[arg(long, hide_short_help = true, help_heading = "Frames and files")]
+    pub(crate) mips: bool,
+    /// JPEG quality, 1 to 100 [default: 95]
+    #[arg(long, value_name = "Q", value_parser = quality, allow_hyphen_values = true, hide_short_help = true, help_heading = "Frames and files")]
+    pub(crate) quality: Option<u8>,
+    /// PNG, TIFF and OpenEXR: how hard to press, without loss [default: balanced; fast for PNG sequences]
+    #[arg(long, value_parser = CompressionParser, value_name = "HOW", hide_short_help = true, help_heading = "Frames and files")]
+    pub(crate) compression: Option<CompressionLevel>,
+    /// Write no metadata of the input: no attributes, texts, Exif or XMP
+    ///
+    /// Unless given, they go along where the output's format can hold them and they are still true (docs/metadata.md). Tags of
+    /// colours stay, since they say what the pixels mean, and so does a panorama's place (GPano).
+    #[arg(long, hide_short_help = true, help_heading = "Frames and files")]
+    pub(crate) strip: bool,
+    #[command(flatten)]
+    pub(crate) run: RunArgs,
+}
+
+/// Frames to make, and treatment of outputs and folders.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct FilesArgs {
     /// Which frames: 5, 1-10 or 1-3,5,7-20:2 [default: all]
     ///
     /// Unless given, all from the first that exists to the last.
@@ -170,24 +197,11 @@ pub(crate) struct ConvertArgs {
     /// Otherwise it is made, with those above it.
     #[arg(long, help_heading = "Frames and files")]
     pub(crate) no_mkdir: bool,
-    /// The format of standard output, as in --format png
-    #[arg(long, value_name = "EXT", help_heading = "Frames and files")]
-    pub(crate) format: Option<String>,
-    /// KTX2 and DDS: add the smaller copies (mips), each made as a picture of its size would be
-    #[arg(long, hide_short_help = true, help_heading = "Frames and files")]
-    pub(crate) mips: bool,
-    /// JPEG quality, 1 to 100 [default: 95]
-    #[arg(long, value_name = "Q", value_parser = quality, allow_hyphen_values = true, hide_short_help = true, help_heading = "Frames and files")]
-    pub(crate) quality: Option<u8>,
-    /// PNG, TIFF and OpenEXR: how hard to press, without loss [default: balanced; fast for PNG sequences]
-    #[arg(long, value_parser = CompressionParser, value_name = "HOW", hide_short_help = true, help_heading = "Frames and files")]
-    pub(crate) compression: Option<CompressionLevel>,
-    /// Write no metadata of the input: no attributes, texts, Exif or XMP
-    ///
-    /// Unless given, they go along where the output's format can hold them and they are still true (docs/metadata.md). Tags of
-    /// colours stay, since they say what the pixels mean, and so does a panorama's place (GPano).
-    #[arg(long, hide_short_help = true, help_heading = "Frames and files")]
-    pub(crate) strip: bool,
+}
+
+/// Limits, progress and report of a run.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct RunArgs {
     #[command(flatten)]
     pub(crate) limits: LimitArgs,
     /// How to tell what is going on, on standard error

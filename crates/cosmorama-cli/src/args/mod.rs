@@ -23,7 +23,8 @@ pub(crate) use explain::ExplainArgs;
 pub(crate) use help::{CompletionsArgs, HelpArgs, LISTS, ManArgs, SPEC_TOPIC};
 pub(crate) use info::InfoArgs;
 pub(crate) use light::{
-    BrdfArgs, DiffuseArgs, HarmonicsArgs, LightArgs, LightVerb, MapArgs, Method, SpecularArgs, SunArgs, TableArgs, Unit,
+    BrdfArgs, DeployArgs, DiffuseArgs, HarmonicsArgs, LightArgs, LightVerb, MapArgs, Method, PresetName, SpecularArgs,
+    SunArgs, TableArgs, Unit,
 };
 pub(crate) use parse::progress::ProgressStyle;
 pub(crate) use shade::{BackgroundName, CameraName, MaterialName, ObjectName, Point, RefractName, ShadeArgs};

@@ -35,15 +35,15 @@ impl From<ConvertArgs> for Conversion {
             depth: args.depth.map(Depth::from),
             background: args.background.map(|colour| colour.0),
             missing: args.missing,
-            frames: args.frames,
-            existing: existing(args.overwrite, args.resume),
-            make_folders: !args.no_mkdir,
+            frames: args.files.frames,
+            existing: existing(args.files.overwrite, args.files.resume),
+            make_folders: !args.files.no_mkdir,
             to_stream: args.format.is_some(),
             mips: args.mips,
             quality: args.quality,
             compression: args.compression.map(compression),
             strip: args.strip,
-            limits: args.limits.into(),
+            limits: args.run.limits.into(),
             ..Self::default()
         }
     }

@@ -17,7 +17,7 @@ pub(super) fn run(args: ConvertArgs, console: &mut Console) -> Result<ExitCode> 
     if let Some(idle) = args.camera.idle(&args.geometry).or_else(|| args.shutter.idle()) {
         return Err(usage(idle));
     }
-    let (progress, as_json) = (args.progress, args.json);
+    let (progress, as_json) = (args.run.progress, args.run.json);
     let piped = Piped::open(args, console)?;
     let conversion: Conversion = piped.args.clone().into();
     let report = convert(conversion.files(Arc::clone(&piped.files)), progress, console)?;

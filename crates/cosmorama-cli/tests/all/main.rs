@@ -46,6 +46,7 @@ mod lenses {
 
 mod light {
     mod brdf;
+    mod deploy;
     mod harmonics;
     mod maps;
     mod shade;

@@ -12,7 +12,7 @@ use super::profile;
 use super::working::{Working, clips, white_of};
 use crate::diagnostic::{BACKGROUND, Code, DEPTH, Diagnostic, MISSING, Result, usage_as};
 use crate::input::Input;
-use crate::settings::{Conversion, LightSettings};
+use crate::settings::{Conversion, LightNormalisation, LightScale, LightSettings};
 use crate::target::Target;
 
 /// Transfer functions and primaries of inputs and outputs, and the outputs' channels and depth.
@@ -294,6 +294,22 @@ fn output_transfer(
     Transfer::Srgb
 }
 
+/// Returns the diagnostic that a map's file does not say what its samples are. Where they are plain radiance, it is a note.
+fn unsaid(light: &LightSettings, format: Format) -> Diagnostic {
+    let unit = match light.normalisation {
+        LightNormalisation::Irradiance => "irradiance: a world of 1 gives π",
+        LightNormalisation::Radiance => "radiance: a world of 1 gives 1",
+    };
+    let scale = match light.scale {
+        LightScale::Factor(1.0) => String::new(),
+        LightScale::Factor(factor) => format!(", times {factor}"),
+        LightScale::Fitting => ", times the factor that is told".to_owned(),
+    };
+    let message = format!("{format} has no place for the unit of a map of light; samples are {unit}{scale}");
+    let is_plain = light.normalisation == LightNormalisation::Radiance && scale.is_empty();
+    if is_plain { Diagnostic::note(Code::Unit, message) } else { Diagnostic::warning(Code::Unit, message) }
+}
+
 fn metadata(
     args: &Conversion,
     headers: &[&Header],
@@ -309,11 +325,14 @@ fn metadata(
         let message = "the input's ICC profile is not carried over: the output is encoded differently";
         warnings.push(Diagnostic::warning(Code::ProfileLost, message));
     }
+    if let (Some(light), false) = (&args.light, target.format.holds_remarks()) {
+        warnings.push(unsaid(light, target.format));
+    }
     // Rec. 709 is usual, and is named only where the input names its primaries in the same format.
     let is_named = !working.primaries.is_same(&Primaries::REC709)
         || headers.first().is_some_and(|header| header.format == target.format && header.metadata.primaries.is_some());
     Metadata {
-        remarks: args.light.iter().map(LightSettings::remark).collect(),
+        remarks: args.light.iter().flat_map(LightSettings::remarks).chain(args.remarks.iter().cloned()).collect(),
         transfer: Some(transfer.clone()),
         icc: icc.filter(|_| keep),
         profile_fault: None,

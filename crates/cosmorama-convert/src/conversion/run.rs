@@ -9,7 +9,7 @@ use rayon::ThreadPool;
 use rayon::prelude::*;
 
 use super::{Checked, Observer, Report, Stop, Work, watched};
-use crate::diagnostic::{Code, ConvertError, DEPTH, Diagnostic, Result};
+use crate::diagnostic::{Code, ConvertError, DEPTH, Diagnostic, Result, SCALE};
 use crate::engine::unfiltered::{OutputFile, formula, st_map};
 use crate::engine::{
     Engine, FrameFile, FrameLight, InterpolationReport, Levels, LightReport, Sequence, Stage, Stages, ViewImage,
@@ -17,6 +17,7 @@ use crate::engine::{
 };
 use crate::job::options::write_options;
 use crate::job::{Content, ConvertJob, FrameOutputs};
+use crate::settings::LightScale;
 
 impl Checked {
     /// Makes the outputs. Each appears whole or not at all.
@@ -83,30 +84,54 @@ impl Checked {
         let mut told = engine.told();
         told.extend(run.tally.warnings(job));
         // Maps of light are measured by frame.
+        let output = settings.output.as_str();
         if job.lighting.is_none() {
-            told.extend(too_bright(job, (None, 0), engine.writer().overflowed()));
+            told.extend(too_bright((job, output), (None, 0), engine.writer().overflowed()));
         }
         run.tell(told);
         // Frames that were being written at a stop are done by now.
         let interpolated =
             made.map_err(|error| if let ConvertError::Stopped { .. } = error { run.stopped() } else { error })?;
         let lit = engine.light_reports();
-        let told = lit.iter().filter_map(|report| too_bright(job, (report.frame, report.level), report.overflowed));
-        run.tell(told.collect());
+        let told =
+            lit.iter().filter_map(|report| too_bright((job, output), (report.frame, report.level), report.overflowed));
+        run.tell(told.chain(lit.first().and_then(|report| fitted(job, output, report.scale))).collect());
         Ok((lit, interpolated))
     }
 }
 
+/// Returns the warning about light that was scaled to fit the output's sample type.
+fn fitted(job: &ConvertJob, output: &str, scale: f64) -> Option<Diagnostic> {
+    let is_asked = job.lighting.as_ref().is_some_and(|light| light.scale == LightScale::Fitting);
+    (is_asked && scale != 1.0).then(|| {
+        let message = format!(
+            "{output}: the light is written times {scale}, so that all of it fits {DEPTH} {}; times {} it is what it was (lightScale in \
+             files that have a place for it)",
+            job.light.depth,
+            scale.recip()
+        );
+        Diagnostic::warning(Code::TooBright, message)
+    })
+}
+
 /// Returns the warning about light that the output's sample type cannot hold.
-fn too_bright(job: &ConvertJob, (frame, level): (Option<u64>, usize), samples: usize) -> Option<Diagnostic> {
-    let mut of_frame = frame.map_or_else(String::new, |frame| format!("frame {frame}: "));
-    if level > 0 {
-        of_frame += &format!("level {level}: ");
+fn too_bright(
+    (job, output): (&ConvertJob, &str),
+    (frame, level): (Option<u64>, usize),
+    samples: usize,
+) -> Option<Diagnostic> {
+    let mut place = format!("{output}: ");
+    if let Some(frame) = frame {
+        place += &format!("frame {frame}: ");
     }
+    if level > 0 {
+        place += &format!("level {level}: ");
+    }
+    let scale = if job.lighting.is_some() { format!(", or give {SCALE} auto") } else { String::new() };
     (samples > 0).then(|| {
         let message = format!(
-            "{of_frame}{samples} {} brighter than {DEPTH} {} holds, and {} cut to its largest; write OpenEXR, Radiance, KTX 2 or \
-             DDS files with {DEPTH} float",
+            "{place}{samples} {} brighter than {DEPTH} {} holds, and {} cut to its largest; write OpenEXR, Radiance, KTX 2 or \
+             DDS files with {DEPTH} float{scale}",
             if samples == 1 { "sample is" } else { "samples are" },
             job.light.depth,
             if samples == 1 { "is" } else { "are" }

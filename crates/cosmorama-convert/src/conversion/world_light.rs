@@ -20,9 +20,6 @@ use crate::job::options::write_options;
 use crate::job::{Content, ConvertJob, Purpose, files_read};
 use crate::settings::{Conversion, LightNormalisation, LightSettings};
 
-/// Picture whose format keeps all light: none is written.
-const ANY_PICTURE: &str = "light.exr";
-
 /// Light of one world, for what is no picture of it: harmonics, a table of its colours, its suns, or things that it lights.
 ///
 /// ```
@@ -92,8 +89,7 @@ impl Conversion {
     pub fn check_light(self) -> Outcome<WorldLight> {
         let mut diagnostics = Vec::new();
         let light = LightSettings::map(Lobe::LAMBERT, LightNormalisation::Radiance);
-        let output = ANY_PICTURE.to_owned();
-        let settings = Self { output, depth: Some(Depth::Float), light: Some(light), ..self };
+        let settings = Self { depth: Some(Depth::Float), light: Some(light), ..self };
         Outcome { result: WorldLight::of(settings, &mut diagnostics), diagnostics }
     }
 }

@@ -92,6 +92,8 @@ pub enum Code {
     Suns,
     /// Light is brighter than the output can hold.
     TooBright,
+    /// A file cannot say what its samples are.
+    Unit,
     /// The total light is not kept, for lack of memory.
     Unbalanced,
     /// Geometry is computed again for each frame, for lack of memory.

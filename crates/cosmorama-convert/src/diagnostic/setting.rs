@@ -46,6 +46,10 @@ settings! {
     Shutter "shutter" SHUTTER,
     /// Method of motion blur.
     Motion "motion" MOTION,
+    /// Scale of a map of light in its file.
+    Scale "scale" SCALE,
+    /// Frames of a sequence whose maps of light are computed.
+    Every "every" EVERY,
     /// Filter.
     Filter "filter" FILTER,
     /// Rule by which labels are chosen.

@@ -1,9 +1,9 @@
 use std::path::Path;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, OnceLock};
 
 use cosmorama::raster::{Depth, EncodedImage, Encoder, Image, Rgba, Threads};
-use cosmorama_io::{Carried, LayeredImage, Plane, WriteOptions, write_layers, write_levels};
+use cosmorama_io::{Carried, LayeredImage, Plane, Remark, WriteOptions, write_layers, write_levels};
 
 use crate::colour::{Light, LightConversion, PictureNames};
 use crate::diagnostic::Result;
@@ -39,6 +39,8 @@ pub(crate) struct Writer {
     /// Names of the picture's channels, if they are not the usual ones.
     names: Vec<String>,
     options: WriteOptions,
+    /// Statement about the pixels that is known once they are made.
+    said: OnceLock<Remark>,
     /// Whether samples are half floats.
     is_half: bool,
     /// Samples so far that were brighter than a half float can be.
@@ -53,12 +55,20 @@ impl Writer {
         };
         let encoder = Encoder::new(light.channels, light.depth, &light.transfer);
         let is_half = light.depth == Depth::Half;
-        Self { conversion: light.output(), encoder, names, options, is_half, overflowed: AtomicUsize::new(0) }
+        let (conversion, said, overflowed) = (light.output(), OnceLock::new(), AtomicUsize::new(0));
+        Self { conversion, encoder, names, options, said, is_half, overflowed }
     }
 
     /// Returns the number of samples so far that are written as the largest half float, because they are brighter.
     pub(crate) fn overflowed(&self) -> usize {
         self.overflowed.load(Ordering::Relaxed)
+    }
+
+    /// Adds a statement about the pixels to outputs that are written from now on.
+    pub(crate) fn say(&self, remark: Option<Remark>) {
+        if let Some(remark) = remark {
+            self.said.get_or_init(|| remark);
+        }
     }
 
     /// Writes an output: a picture and its mip levels. Their memory goes back to the pool.
@@ -83,6 +93,9 @@ impl Writer {
     }
 
     fn save_with(&self, options: &WriteOptions, levels: Levels, path: &Path, threads: Threads) -> Result<()> {
+        let mut said = options.clone();
+        said.metadata.remarks.extend(self.said.get().cloned());
+        let options = &said;
         let pool = &*self.options.pool;
         let encode = |mut image: Image<Rgba>| {
             if let Some(conversion) = &self.conversion {

@@ -17,14 +17,14 @@ use super::memory_needs::gathered_bytes;
 use super::options::{check_file_options, filter};
 use crate::colour::{LayerPlan, Light, check_choice, check_labels};
 use crate::detect::unless_damaged;
-use crate::diagnostic::{Code, Diagnostic, MOTION, PATH, Result, SHUTTER, YAW, usage};
+use crate::diagnostic::{Code, Diagnostic, MOTION, PATH, Result, SCALE, SHUTTER, YAW, usage};
 use crate::input::Input;
 use crate::input::spec_files::st_map::settled;
 use crate::job::Outputs;
 use crate::job::coverage::{Coverage, whole_worlds};
-use crate::settings::{BlurMethod, CameraMovement, Conversion, GeometrySettings, LightSettings};
+use crate::settings::{BlurMethod, CameraMovement, Conversion, GeometrySettings, LightScale, LightSettings};
 use crate::source::{Access, ChosenFiles, DecodedPicture, Files, MemoryBudget};
-use crate::target::{Movement, Target, TargetView, name_of_level, of_light, shape_warning, time};
+use crate::target::{Movement, Target, TargetView, name_of_level, of_light, shape_warning, time, whole_chain};
 
 /// A conversion, ready to run.
 pub(crate) struct ConvertJob {
@@ -68,6 +68,9 @@ pub(crate) enum Purpose {
     /// The light of the input alone: nothing is written.
     Light,
 }
+
+/// Format in whose range and sample types light is held that goes into no file: all of it fits.
+const LIGHT: Format = Format::Exr;
 
 /// Part of the memory, at most, that a picture decoded beforehand takes.
 const DECODED_PART: u64 = 8;
@@ -121,22 +124,32 @@ impl ConvertJob {
         let mut geometry = settled(&settings.geometry, file, access, warnings)?;
         let mut output = settings.output.clone();
         let levels = settings.light.as_ref().map_or(1, |light| light.levels.len());
-        if settings.light.is_some() {
+        if settings.light.is_some() && purpose == Purpose::Pictures {
             output = name_of_level(&output, 0);
             geometry = of_light(geometry, &output, levels);
         }
         let geometry = &geometry;
         // Mistakes in the settings themselves come first: they do not depend on any file.
-        let format = Target::check_names(&output, geometry)?;
+        let format = match purpose {
+            Purpose::Pictures => Target::check_names(&output, geometry)?,
+            Purpose::Light => LIGHT,
+        };
         check_file_options(settings, format)?;
         let mut input = content.input(settings, geometry, access, warnings)?;
         let parity = content.has_files().then(|| input.pixels_per_radian());
-        let mut target = Target::resolve(&output, geometry, parity)?;
+        let mut target = match purpose {
+            Purpose::Pictures => Target::resolve(&output, geometry, parity)?,
+            Purpose::Light => Target::none(LIGHT),
+        };
         if settings.mips {
             target = target.with_mips(&settings.output, geometry)?;
         }
-        if levels > 1 {
-            target = target.with_chain(&settings.output, geometry, levels)?;
+        let mut lighting = settings.light.clone();
+        if let Some(light) = lighting.as_mut().filter(|_| levels > 1) {
+            // The last level goes on, smaller and smaller.
+            let last = light.levels[levels - 1];
+            light.levels.resize(whole_chain(&settings.output, &target).unwrap_or(levels).max(levels), last);
+            target = target.with_chain(&settings.output, geometry, light.levels.len())?;
         }
         let movement = move_camera(settings, geometry, (&mut input, &target), access, warnings)?;
         warnings.extend(input.diagnostics());
@@ -162,6 +175,12 @@ impl ConvertJob {
             Purpose::Light => Outputs::none(&input),
         };
         warnings.extend(outputs.warning());
+        if outputs.frames.len() > 1 && lighting.as_ref().is_some_and(|light| light.scale == LightScale::Fitting) {
+            return Err(usage(format!(
+                "{SCALE} auto would scale each of {} frames by its own factor; give one for all, as in {SCALE} 0.25",
+                outputs.frames.len()
+            )));
+        }
         let missing = match settings.missing {
             Missing::Fill(colour) => Missing::Fill(light.colour(colour)?),
             Missing::Error => Missing::Error,
@@ -178,7 +197,7 @@ impl ConvertJob {
             layers,
             outputs,
             coverage: Coverage::Complete,
-            lighting: settings.light.clone(),
+            lighting,
             missing,
             memory,
             decoded,
@@ -206,7 +225,10 @@ impl ConvertJob {
             memory.check_frame(input, target)?;
             let blocks: u64 = worlds.iter().flat_map(World::sources).map(|source| gathered_bytes(&source.view)).sum();
             let bands = PreparedLight::bytes_for(&lighting.lobes()) as u64 * worlds.len() as u64;
-            self.memory = memory.beside_levels(blocks.saturating_add(bands), input, target)?;
+            let memory = memory.beside_levels(blocks.saturating_add(bands), input, target)?;
+            // The map before, the one after, and all between; another where the error is measured.
+            let copies = lighting.every.map_or(0, |every| every.frames.min(input.frames.len()) + 2);
+            self.memory = memory.beside_maps(copies as u64, input, target)?;
             (self.coverage, self.worlds) = (coverage, worlds);
             return Ok(());
         }

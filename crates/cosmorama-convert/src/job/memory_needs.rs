@@ -6,7 +6,7 @@ use cosmorama::raster::Rgba;
 use cosmorama_io::Format;
 
 use crate::colour::LayerPlan;
-use crate::diagnostic::{CHANNELS, FILTER, Result, SHUTTER};
+use crate::diagnostic::{CHANNELS, EVERY, FILTER, Result, SHUTTER};
 use crate::input::{Input, InputView};
 use crate::job::{FrameMemory, QueueDepth};
 use crate::source::MemoryBudget;
@@ -72,6 +72,15 @@ impl MemoryBudget {
         let why = format!("; the sum of its moments, for {SHUTTER}, is {} of it", human(sum));
         self.allow(frame_bytes(input, target).saturating_add(sum), "a frame", &why)?;
         Ok(self.beside(sum))
+    }
+
+    /// Returns the budget that is left beside copies of the maps, between which others are interpolated. It is an error if a frame
+    /// and they do not fit.
+    pub(crate) fn beside_maps(self, copies: u64, input: &Input, target: &Target) -> Result<Self> {
+        let maps = (output_bytes(target) / 2).saturating_mul(copies);
+        let why = format!("; the maps between two that are computed, for {EVERY}, are {} of it", human(maps));
+        self.allow(frame_bytes(input, target).saturating_add(maps), "a frame", &why)?;
+        Ok(self.beside(maps))
     }
 
     /// Chooses how many further channels are read at once, and returns the budget that is left beside all of them. It

@@ -8,7 +8,7 @@ mod movement;
 pub(crate) mod picture;
 pub(crate) mod sheets;
 
-pub(crate) use chain::name_of_level;
+pub(crate) use chain::{name_of_level, whole_chain};
 pub(crate) use light::of_light;
 pub use light::{CHAIN_EDGE, is_cube_of_light};
 pub(crate) use movement::{Movement, time};

@@ -233,11 +233,13 @@ fn cube_envmap(cube: &Cube, format: Option<Format>) -> Option<EnvMap> {
         _ => (None, EnvMap::GlCube),
     };
     let own = Cube { layout: Some(Packing::OneImage(own_layout(format)?)), order, ..Cube::default() };
-    let same = cube.one_image() == own.one_image()
-        && cube.frame() == own.frame()
-        && cube.mirror == Mirror::default()
-        && CubeFace::ALL.iter().all(|face| cube.faces.contains(face));
-    same.then_some(envmap)
+    let lies_as =
+        |own: &Cube| cube.one_image() == own.one_image() && cube.frame() == own.frame() && cube.mirror == own.mirror;
+    let mirrored = Cube { order: FaceOrder::parse("lrudfb"), mirror: Mirror { x: true, y: false }, ..own.clone() };
+    // Programs that look textures up by directions of a right-handed frame want them mirrored.
+    let same = lies_as(&own) || (envmap == EnvMap::GlCube && lies_as(&mirrored));
+    let is_whole = CubeFace::ALL.iter().all(|face| cube.faces.contains(face));
+    (same && is_whole).then_some(envmap)
 }
 
 /// Places the picture of an eye in an image for both.

@@ -150,11 +150,16 @@ impl Target {
         Ok(Self { views, files, format, envmap, panorama })
     }
 
+    /// Returns the target of light that goes into no picture.
+    pub(crate) fn none(format: Format) -> Self {
+        Self { views: Vec::new(), files: Vec::new(), format, envmap: None, panorama: None }
+    }
+
     /// Adds the mip levels of its cube, down to faces of one pixel.
     ///
     /// Each level is converted at its own size, so that its faces match at the edges like the largest ones.
     pub(crate) fn with_mips(mut self, output: &str, geometry: &GeometrySettings) -> Result<Self> {
-        if !self.format.holds_levels() {
+        if !self.format.is_cube_map() {
             return Err(usage(format!(
                 "{MIPS} is for textures, but {output} is {}; leave it out, or name the output .ktx2 or .dds",
                 self.format

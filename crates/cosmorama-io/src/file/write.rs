@@ -87,7 +87,7 @@ fn hidden(path: &Path, levels: &[EncodedImage], options: &WriteOptions) -> Resul
             path: path.to_owned(),
             format,
             found: format!("{} smaller copies of a picture", smaller.len()),
-            expected: "one picture; KTX2 and DDS hold several levels".to_owned(),
+            expected: "one picture; KTX 2, KTX, DDS and OpenEXR hold several levels".to_owned(),
         });
     }
     let mut pending = Pending::create(path, &options.unfinished)?;

@@ -21,7 +21,7 @@ pub enum Format {
     Exr,
     /// KTX 2 texture with the faces of a cube.
     Ktx2,
-    /// KTX texture of version 1 with the faces of a cube; read-only.
+    /// KTX texture of version 1 with the faces of a cube.
     Ktx,
     /// DirectDraw surface with the faces of a cube.
     Dds,
@@ -53,6 +53,7 @@ struct Properties {
     has_compression: bool,
     holds_icc: bool,
     holds_exif: bool,
+    holds_remarks: bool,
 }
 
 impl Properties {
@@ -69,6 +70,7 @@ impl Properties {
         has_compression: false,
         holds_icc: false,
         holds_exif: false,
+        holds_remarks: true,
     };
 
     /// Properties that cube map textures share: the depths and channels that every graphics card supports.
@@ -113,7 +115,13 @@ impl Properties {
         ..Self::PLAIN
     };
 
-    const TGA: Self = Self { name: "TGA", extensions: &["tga"], longest_side: Some(u16::MAX as usize), ..Self::PLAIN };
+    const TGA: Self = Self {
+        name: "TGA",
+        extensions: &["tga"],
+        longest_side: Some(u16::MAX as usize),
+        holds_remarks: false,
+        ..Self::PLAIN
+    };
 
     const HDR: Self = Self {
         name: "Radiance HDR",
@@ -129,6 +137,7 @@ impl Properties {
         extensions: &["exr"],
         depths: &[Depth::Half, Depth::Float],
         primaries: HeldPrimaries::Any,
+        holds_levels: true,
         has_compression: true,
         ..Self::PLAIN
     };
@@ -136,10 +145,9 @@ impl Properties {
     const KTX2: Self =
         Self { name: "KTX 2", extensions: &["ktx2"], primaries: HeldPrimaries::Numbered, ..Self::TEXTURE };
 
-    // Recognised by content only, since such files are never written.
-    const KTX: Self = Self { name: "KTX", depths: &[], holds_levels: false, ..Self::TEXTURE };
+    const KTX: Self = Self { name: "KTX", extensions: &["ktx"], ..Self::TEXTURE };
 
-    const DDS: Self = Self { name: "DDS", extensions: &["dds"], ..Self::TEXTURE };
+    const DDS: Self = Self { name: "DDS", extensions: &["dds"], holds_remarks: false, ..Self::TEXTURE };
 }
 
 /// Greatest number of bytes in a segment of a JPEG, without its length and its longest name.
@@ -269,6 +277,11 @@ impl Format {
             texts: matches!(self, Self::Png),
             exif: if self.properties().holds_exif { Some(segment) } else { None },
         }
+    }
+
+    /// Returns whether the format has a place for statements of the program about the pixels.
+    pub const fn holds_remarks(self) -> bool {
+        self.properties().holds_remarks
     }
 
     /// Returns whether the format can hold an ICC profile.

@@ -63,12 +63,12 @@ pub struct Metadata {
 }
 
 /// Statement about the pixels: a name and a text, both in ASCII.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Remark {
     /// Name, at most 31 letters.
     pub name: &'static str,
     /// Text.
-    pub text: &'static str,
+    pub text: Cow<'static, str>,
 }
 
 /// Reason why an ICC profile cannot be applied.
@@ -129,7 +129,7 @@ pub enum EnvMap {
     LatLong,
     /// OpenEXR's six faces one below the other: +X −X +Y −Y +Z −Z in a right-handed frame, with samples on the edges.
     Cube,
-    /// Faces of a KTX or DDS file, one below the other: +X −X +Y −Y +Z −Z, left-handed, with +Z ahead.
+    /// Faces of a KTX or DDS file, one below the other: +X −X +Y −Y +Z −Z, left-handed, with +Z ahead, unless they are mirrored.
     GlCube,
 }
 

@@ -3,8 +3,10 @@
 //! [`write`](crate::write()) writes to a temporary file beside the output, and renames it when it is complete.
 //! Meanwhile the file is listed in [`Unfinished`]. An interrupt handler calls [`Unfinished::remove_all`] before the
 //! program ends, so that no partial file stays behind. Files left by a killed program are named `.cosmorama-*.part`.
-//! Folders that are created for outputs ([`NewFolders`]) are listed, too, and removed if they stay empty.
+//! Folders that are created for outputs ([`NewFolders`]) are listed, too, and removed if they stay empty. A [`PendingFolder`] appears
+//! with all of its files.
 
+mod folder;
 mod new_folders;
 
 use std::collections::BTreeSet;
@@ -15,6 +17,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use tempfile::{Builder, TempDir, TempPath};
 
+pub use folder::PendingFolder;
 pub use new_folders::NewFolders;
 
 use crate::IoError;

@@ -8,7 +8,7 @@ use crate::common::{picture, program};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples, Transfer};
 use cosmorama_io::{
     Choice, EnvMap, LayeredImage, Limits, Metadata, Plane, PlaneSamples, Window, WriteOptions, open, probe, read,
-    read_layers, write, write_layers,
+    read_layers, write, write_layers, write_levels,
 };
 
 fn run(program: &str, arguments: &[&str]) {
@@ -108,6 +108,34 @@ fn oiiotool_reads_our_cubes() {
     let back = read(Path::new(&at("a.tif")), &Limits::default()).unwrap().image;
     assert_eq!((back.width(), back.height()), (32, 192));
     assert!(largest_difference(&image, &back) < 1e-6);
+}
+
+/// Mip levels in OpenEXR: tiles, each level its own picture, down to one pixel.
+#[test]
+fn oiiotool_and_exrheader_read_our_mip_levels() {
+    let (Some(oiiotool), Some(exrheader)) = (program("oiiotool"), program("exrheader")) else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    for (depth, channels) in [(Depth::Half, Channels::Rgb), (Depth::Float, Channels::Rgba)] {
+        let sizes = [(150, 70), (75, 35), (37, 17), (18, 8), (9, 4), (4, 2), (2, 1), (1, 1)];
+        let levels = sizes.map(|(width, height)| picture(width, height, channels, depth));
+        write_levels(Path::new(&at("mips.exr")), &levels, &WriteOptions::default()).unwrap();
+        let header = Command::new(exrheader).arg(at("mips.exr")).output().unwrap();
+        let header = String::from_utf8_lossy(&header.stdout).into_owned();
+        assert!(header.contains("mip-map") && header.contains("tile size 64 by 64 pixels"), "{header}");
+        for (level, image) in levels.iter().enumerate() {
+            let selected = level.to_string();
+            run(oiiotool, &[&at("mips.exr"), "--selectmip", &selected, "-o", &at("level.exr")]);
+            let found = read(Path::new(&at("level.exr")), &Limits::default()).unwrap().image;
+            assert!(largest_difference(image, &found) == 0.0, "{depth}, level {level}");
+        }
+        // We read the largest.
+        assert!(read(Path::new(&at("mips.exr")), &Limits::default()).unwrap().image == levels[0]);
+        for wrong in [&levels[..3], &[&levels[..1], &levels[2..], &levels[7..]].concat()] {
+            let error = write_levels(Path::new(&at("mips.exr")), wrong, &WriteOptions::default());
+            assert!(error.unwrap_err().to_string().contains("level"));
+        }
+    }
 }
 
 #[test]

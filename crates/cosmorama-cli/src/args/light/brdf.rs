@@ -27,7 +27,7 @@ pub(crate) struct BrdfArgs {
     #[arg(value_hint = ValueHint::FilePath)]
     pub(crate) output: PathBuf,
     /// Columns and rows, 1 to 4096
-    #[arg(long, value_name = "N", value_parser = size, allow_negative_numbers = true, default_value = "128", help_heading = "Table")]
+    #[arg(long, value_name = "N", value_parser = size, allow_negative_numbers = true, default_value_t = SIZE, help_heading = "Table")]
     pub(crate) size: usize,
     /// ggx (default), with height-correlated Smith shadowing, or charlie, cloth
     #[arg(long, value_enum, value_name = "LOBE", default_value_t = Surface::Ggx, hide_possible_values = true, hide_default_value = true, help_heading = "Table")]
@@ -49,6 +49,17 @@ pub(crate) struct BrdfArgs {
     #[arg(long, help_heading = "Run")]
     pub(crate) json: bool,
 }
+
+impl BrdfArgs {
+    /// Returns the arguments of a table of microfacets.
+    pub(crate) fn usual(output: PathBuf, multiscatter: bool, threads: Option<usize>) -> Self {
+        let file = OutputArgs { overwrite: true, no_mkdir: false };
+        Self { output, size: SIZE, lobe: Surface::Ggx, multiscatter, depth: None, file, threads, json: false }
+    }
+}
+
+/// Columns and rows of a table, unless given.
+const SIZE: usize = 128;
 
 /// Surface that a table is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -2,17 +2,16 @@ use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueEnum, ValueHint};
 use cosmorama::raster::Depth;
 use cosmorama::sphere::{Angle, Orientation};
-use cosmorama_convert::{Conversion, GeometrySettings};
-use cosmorama_io::FrameList;
+use cosmorama_convert::{Conversion, GeometrySettings, LightScale};
 use cosmorama_spec::{DepthName, Missing, Size, Spec, TransferName};
 
 use super::lobe::LobeName;
 use super::roughness::RoughnessMapName;
-use crate::args::convert::{LimitArgs, frame_list};
+use crate::args::convert::{FilesArgs, RunArgs};
 use crate::args::parse::listed;
 use crate::args::parse::number::degrees;
 use crate::args::settings::existing;
-use crate::args::{ProgressStyle, with_examples};
+use crate::args::with_examples;
 
 /// Example commands in the help of `light diffuse`.
 pub(super) const DIFFUSE_EXAMPLES: [&str; 5] = [
@@ -73,8 +72,8 @@ pub(crate) struct SpecularArgs {
     pub(crate) alpha: Vec<f64>,
     /// Make a chain of N maps, each of half the size: a mirror first, then rougher and rougher
     ///
-    /// One KTX 2 or DDS file holds all as mip levels of a cube; in other formats, OUTPUT has {level} where the number of a level
-    /// stands, from 0.
+    /// One KTX 2, KTX or DDS file holds all as mip levels of a cube, one OpenEXR file those of a panorama; in other formats, OUTPUT has
+    /// {level} where the number of a level stands, from 0.
     #[arg(long, value_name = "N", value_parser = levels, allow_negative_numbers = true, help_heading = "Light")]
     pub(crate) levels: Option<usize>,
     /// How α grows along a chain: linear, squared (default), filament, gltf, unreal, three
@@ -100,6 +99,14 @@ pub(crate) enum Method {
 
 fn every(text: &str) -> Result<usize, String> {
     text.parse().ok().filter(|frames| *frames > 0).ok_or_else(|| "expected a number of frames, 1 at least".to_owned())
+}
+
+fn scale(text: &str) -> Result<LightScale, String> {
+    if text == "auto" {
+        return Ok(LightScale::Fitting);
+    }
+    let factor = text.parse().ok().filter(|factor: &f64| factor.is_finite() && *factor > 0.0);
+    factor.map(LightScale::Factor).ok_or_else(|| "expected auto, or a factor more than 0, as in 0.25".to_owned())
 }
 
 fn levels(text: &str) -> Result<usize, String> {
@@ -150,6 +157,11 @@ pub(crate) struct MapArgs {
     /// The default takes together texels over which the lobe hardly bends; docs/light.md says how near it is.
     #[arg(long, help_heading = "Light")]
     pub(crate) exact: bool,
+    /// Write the light times FACTOR, or auto: times the power of two with which all of it fits
+    ///
+    /// Half floats end at 65504, and integers at 1. The file says what it was, lightScale, where it has a place for that.
+    #[arg(long, value_name = "auto|FACTOR", value_parser = scale, allow_negative_numbers = true, default_value = "1", hide_default_value = true, help_heading = "Light")]
+    pub(crate) scale: LightScale,
     /// What no view covers: error (default), transparent or a colour
     #[arg(long, value_name = "COLOR", default_value = "error", hide_default_value = true, help_heading = "Light")]
     pub(crate) missing: Missing,
@@ -159,26 +171,10 @@ pub(crate) struct MapArgs {
     /// Output sample type [default: the deepest of the format]
     #[arg(long, value_parser = listed::depth(), value_name = "DEPTH", help_heading = "Light")]
     pub(crate) depth: Option<DepthName>,
-    /// Which frames: 5, 1-10 or 1-3,5,7-20:2 [default: all]
-    #[arg(long, value_name = "LIST", value_parser = frame_list, allow_hyphen_values = true, help_heading = "Frames and files")]
-    pub(crate) frames: Option<FrameList>,
-    /// Replace existing outputs
-    #[arg(short = 'y', long, conflicts_with = "resume", help_heading = "Frames and files")]
-    pub(crate) overwrite: bool,
-    /// Skip outputs that are already complete
-    #[arg(long, help_heading = "Frames and files")]
-    pub(crate) resume: bool,
-    /// Fail where a folder of an output does not exist
-    #[arg(long, hide_short_help = true, help_heading = "Frames and files")]
-    pub(crate) no_mkdir: bool,
     #[command(flatten)]
-    pub(crate) limits: LimitArgs,
-    /// How to tell what is going on, on standard error
-    #[arg(long, value_enum, value_name = "STYLE", default_value_t = ProgressStyle::Auto, hide_short_help = true, help_heading = "Run")]
-    pub(crate) progress: ProgressStyle,
-    /// Print a machine-readable report on standard output
-    #[arg(long, help_heading = "Run")]
-    pub(crate) json: bool,
+    pub(crate) files: FilesArgs,
+    #[command(flatten)]
+    pub(crate) run: RunArgs,
 }
 
 impl From<MapArgs> for Conversion {
@@ -198,10 +194,10 @@ impl From<MapArgs> for Conversion {
             transfer: args.transfer,
             depth: args.depth.map(Depth::from),
             missing: args.missing,
-            frames: args.frames,
-            existing: existing(args.overwrite, args.resume),
-            make_folders: !args.no_mkdir,
-            limits: args.limits.into(),
+            frames: args.files.frames,
+            existing: existing(args.files.overwrite, args.files.resume),
+            make_folders: !args.files.no_mkdir,
+            limits: args.run.limits.into(),
             ..Self::default()
         }
     }

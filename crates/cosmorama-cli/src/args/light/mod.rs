@@ -1,6 +1,7 @@
 //! Arguments of the verbs that make light of a world.
 
 mod brdf;
+mod deploy;
 mod harmonics;
 pub(crate) mod lobe;
 mod maps;
@@ -14,13 +15,14 @@ use clap::{Args, Subcommand};
 use super::with_examples;
 
 pub(crate) use brdf::BrdfArgs;
+pub(crate) use deploy::{DeployArgs, PresetName};
 pub(crate) use harmonics::HarmonicsArgs;
 pub(crate) use maps::{DiffuseArgs, MapArgs, Method, SpecularArgs, Unit};
 pub(crate) use sun::SunArgs;
 pub(crate) use table::TableArgs;
 
 /// Example commands in its help.
-pub(super) const EXAMPLES: [&str; 9] = [
+pub(super) const EXAMPLES: [&str; 10] = [
     "cosmorama light diffuse sky.hdr light.exr",
     "cosmorama light diffuse 'faces/{face}.exr' light.exr --to mercator",
     "cosmorama light specular sky.exr rough.exr --alpha 0.25 --size 256",
@@ -30,6 +32,7 @@ pub(super) const EXAMPLES: [&str; 9] = [
     "cosmorama light table sky.hdr chrome.csv",
     "cosmorama light brdf dfg.exr",
     "cosmorama light sun sky.hdr --remove sky-without-sun.exr",
+    "cosmorama light deploy sky.hdr garden --preset filament",
 ];
 
 /// Filter a world widely, to the light that it sheds on things.
@@ -57,6 +60,8 @@ pub(crate) enum LightVerb {
     Sun(Box<SunArgs>),
     /// Make a table of what rough surfaces reflect of a white world (split sum, DFG)
     Brdf(BrdfArgs),
+    /// Write all that an engine loads to light a scene by a world, in one folder
+    Deploy(Box<DeployArgs>),
 }
 
 /// Returns the example commands of a verb of `light`.
@@ -64,6 +69,7 @@ pub(crate) fn examples(verb: &str) -> &'static [&'static str] {
     match verb {
         "diffuse" => &maps::DIFFUSE_EXAMPLES,
         "brdf" => &brdf::BRDF_EXAMPLES,
+        "deploy" => &deploy::DEPLOY_EXAMPLES,
         "table" => &table::TABLE_EXAMPLES,
         "sun" => &sun::SUN_EXAMPLES,
         "harmonics" => &harmonics::HARMONICS_EXAMPLES,

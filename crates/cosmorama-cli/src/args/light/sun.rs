@@ -10,10 +10,11 @@ use crate::args::convert::OutputArgs;
 use crate::args::with_examples;
 
 /// Commands that the help of `light sun` shows.
-pub(super) const SUN_EXAMPLES: [&str; 3] = [
+pub(super) const SUN_EXAMPLES: [&str; 4] = [
     "cosmorama light sun sky.hdr",
     "cosmorama light sun sky.hdr --remove sky-without-sun.exr --json",
     "cosmorama light sun 'faces/{face}.exr' --json",
+    "cosmorama light sun 'sky.####.exr' --remove 'left.####.exr'",
 ];
 
 /// Find the suns and lamps of a world: direction, size, colour and light.
@@ -26,7 +27,7 @@ pub(crate) struct SunArgs {
     /// An image or a pattern, as convert takes it; - is standard input
     #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
     pub(crate) input: String,
-    /// Write the picture without its suns: the light around them goes on behind
+    /// Write the picture without its suns: the light around them goes on behind; #### stands for the number of a frame
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = "Light")]
     pub(crate) remove: Option<PathBuf>,
     #[command(flatten)]

@@ -16,10 +16,19 @@ use crate::verbs::{check_depth, prepare_output};
 
 /// Makes a table of what surfaces reflect of a white world.
 pub(super) fn run(args: &BrdfArgs, console: &Console) -> Result<ExitCode> {
+    let samples = samples(&args.output, args.depth.map(Depth::from))?;
+    let _folders = prepare_output(&args.output, args.file, console)?;
+    let (table, cut) = write(args, samples, console)?;
+    if args.json {
+        console.print(&report(args, &table, cut)?)?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Writes the table. Returns it, and how many cells its sample type cannot hold.
+fn write(args: &BrdfArgs, (depth, channels): (Depth, Channels), console: &Console) -> Result<(Image<Rgba>, usize)> {
     let path = &args.output;
-    let (depth, channels) = samples(path, args.depth.map(Depth::from))?;
     let kind = if args.multiscatter { BrdfChannels::Multiscatter } else { BrdfChannels::ScaleBias };
-    let _folders = prepare_output(path, args.file, console)?;
     let pool = threads(args.threads)?;
     let table = pool.install(|| BrdfModel::from(args.lobe).table(args.size, kind));
     let table = table.map_err(|error| usage(format!("--lobe {}, --multiscatter: {error}", args.lobe.name())))?;
@@ -35,10 +44,13 @@ pub(super) fn run(args: &BrdfArgs, console: &Console) -> Result<ExitCode> {
             DepthName(depth)
         ));
     }
-    if args.json {
-        console.print(&report(args, &table, cut)?)?;
-    }
-    Ok(ExitCode::SUCCESS)
+    Ok((table, cut))
+}
+
+/// Writes a table of microfacets, as deploy wants it.
+pub(super) fn write_usual(path: &Path, is_multiscatter: bool, threads: Option<usize>, console: &Console) -> Result<()> {
+    let args = BrdfArgs::usual(path.to_owned(), is_multiscatter, threads);
+    write(&args, samples(path, None)?, console).map(drop)
 }
 
 /// Returns the sample type and the channels of a table in a file.

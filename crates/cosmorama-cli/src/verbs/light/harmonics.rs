@@ -91,19 +91,22 @@ impl Form {
 
     fn text(self, stored: &StoredHarmonics, (basis, kind): (&str, HarmonicKind)) -> Result<String> {
         match self {
-            Self::Json => {
-                let json = json!({
-                    "order": stored.order(),
-                    "basis": basis,
-                    "kind": name(kind),
-                    "coefficients": stored.numbers(),
-                });
-                Ok(serde_json::to_string_pretty(&json)? + "\n")
-            }
+            Self::Json => as_json(stored, (basis, kind)),
             Self::Csv => csv(stored),
             Self::Code(language) => Ok(stored.code(language)),
         }
     }
+}
+
+/// Returns the coefficients as JSON.
+pub(super) fn as_json(stored: &StoredHarmonics, (basis, kind): (&str, HarmonicKind)) -> Result<String> {
+    let json = json!({
+        "order": stored.order(),
+        "basis": basis,
+        "kind": name(kind),
+        "coefficients": stored.numbers(),
+    });
+    Ok(serde_json::to_string_pretty(&json)? + "\n")
 }
 
 fn csv(stored: &StoredHarmonics) -> Result<String> {
@@ -122,19 +125,21 @@ fn name(kind: HarmonicKind) -> &'static str {
     }
 }
 
+/// Returns what a series misses, for programs.
+pub(super) fn missed(SeriesAccuracy { rms_error, least, negative }: SeriesAccuracy) -> Value {
+    json!({ "truncation_rms": rms_error, "least": least, "negative_share": negative })
+}
+
 /// Returns the report for programs.
 fn report(args: &HarmonicsArgs, found: &WorldHarmonics, kind: HarmonicKind) -> Result<String> {
-    let series = |SeriesAccuracy { rms_error, least, negative }: SeriesAccuracy| -> Value {
-        json!({ "truncation_rms": rms_error, "least": least, "negative_share": negative })
-    };
     let LightFigures { mean, peak, suns, shown } = found.light;
     let json = json!({
         "output": args.output,
         "order": args.order,
         "basis": args.basis.name(),
         "kind": name(kind),
-        "radiance": series(found.accuracy.radiance),
-        "irradiance": series(found.accuracy.irradiance),
+        "radiance": missed(found.accuracy.radiance),
+        "irradiance": missed(found.accuracy.irradiance),
         "energy_in": mean,
         "peak_in": peak,
         "brightest_texels_share": suns,

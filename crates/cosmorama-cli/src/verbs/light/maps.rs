@@ -21,16 +21,16 @@ pub(super) fn diffuse(args: DiffuseArgs, console: &mut Console) -> Result<ExitCo
         Unit::Irradiance => LightNormalisation::Irradiance,
         Unit::Radiance => LightNormalisation::Radiance,
     };
-    let exact = map.exact;
+    let (exact, scale) = (map.exact, map.scale);
     let every = every.map(|frames| Every { frames, measured: every_error });
-    make(map, LightSettings { exact, every, ..LightSettings::map(Lobe::LAMBERT, normalisation) }, console)
+    make(map, LightSettings { exact, every, scale, ..LightSettings::map(Lobe::LAMBERT, normalisation) }, console)
 }
 
 /// Makes a map of reflections, or a chain of them.
 pub(super) fn specular(args: SpecularArgs, console: &mut Console) -> Result<ExitCode> {
     let levels = levels(&args)?;
-    let light =
-        LightSettings { levels, normalisation: LightNormalisation::Radiance, exact: args.map.exact, every: None };
+    let (exact, scale) = (args.map.exact, args.map.scale);
+    let light = LightSettings { levels, normalisation: LightNormalisation::Radiance, exact, every: None, scale };
     make(args.map, light, console)
 }
 
@@ -86,9 +86,18 @@ fn chain(args: &SpecularArgs, levels: usize) -> Result<Vec<LightLevel>> {
         ));
     }
     let edge = args.map.size.map_or(CHAIN_EDGE, |size| size.width);
+    levels_by(args.lobe, map, (levels, edge))
+}
+
+/// Returns the levels of a chain of GGX lobes by a rule.
+pub(super) fn levels_of(map: RoughnessMap, levels: usize, edge: usize) -> Result<Vec<LightLevel>> {
+    levels_by(LobeName::Ggx, map, (levels, edge))
+}
+
+fn levels_by(lobe: LobeName, map: RoughnessMap, (levels, edge): (usize, usize)) -> Result<Vec<LightLevel>> {
     let alpha = |level: usize| map.alpha(ChainLevel { level, levels, edge });
     // A roughness below that of any lobe makes a mirror.
-    (0..levels).map(|at| level(args.lobe, if alpha(at) < SMOOTHEST { 0.0 } else { alpha(at) })).collect()
+    (0..levels).map(|at| level(lobe, if alpha(at) < SMOOTHEST { 0.0 } else { alpha(at) })).collect()
 }
 
 /// Returns the level of a roughness.
@@ -106,7 +115,7 @@ fn make(mut map: MapArgs, light: LightSettings, console: &mut Console) -> Result
     }
     let mut kept = KeptStreams::default();
     map.input = kept.input(&map.input)?;
-    let (progress, as_json) = (map.progress, map.json);
+    let (progress, as_json) = (map.run.progress, map.run.json);
     let conversion: Conversion = map.into();
     let conversion = conversion.light(light).files(kept.files());
     let report = convert::convert(conversion, progress, console)?;

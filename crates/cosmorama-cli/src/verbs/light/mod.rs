@@ -1,6 +1,7 @@
 //! Verbs of `light`, a file for each kind of light.
 
 mod brdf;
+mod deploy;
 mod harmonics;
 mod maps;
 mod sun;
@@ -22,5 +23,6 @@ pub(super) fn run(args: LightArgs, console: &mut Console) -> Result<ExitCode> {
         LightVerb::Table(args) => table::run(*args, console),
         LightVerb::Sun(args) => sun::run(*args, console),
         LightVerb::Brdf(args) => brdf::run(&args, console),
+        LightVerb::Deploy(args) => deploy::run(*args, console),
     }
 }

@@ -227,7 +227,11 @@ fn mistakes_about_chains_are_answered() {
     let fail = |args: &[&str], says: &[&str]| {
         assert_says(&bench.fail(2, &[&["light", "specular", "sky.exr"], args].concat()), says);
     };
-    fail(&["chain.exr", "--levels", "5"], &["chain.exr is OpenEXR", "5 levels", ".ktx2 or .dds", "chain_{level}.exr"]);
+    fail(
+        &["chain.hdr", "--levels", "5"],
+        &["chain.hdr is Radiance HDR", "5 levels", ".ktx2, .dds or .exr", "chain_{level}.hdr"],
+    );
+    fail(&["chain.exr", "--levels", "5", "--to", "cube"], &["chain.exr", "down to one pixel", "{face}", ".ktx2"]);
     fail(&["chain.ktx2", "--levels", "5", "--size", "8"], &["--levels", "8x8 pixels have 4 at most", "--size"]);
     fail(&["chain.ktx2", "--levels", "0"], &["expected a number from 1 to 16"]);
     fail(&["chain.ktx2", "--levels", "3", "--alpha", "0,0.5"], &["--levels is 3, but --alpha has 2 values"]);
@@ -316,4 +320,76 @@ fn textures_hold_suns_in_floats_and_say_their_unit() {
     }
     bench.succeed(&["light", "diffuse", "sky.exr", "map.exr"]);
     assert!(bench.bytes("map.exr").windows(10).any(|text| text == b"irradiance"));
+}
+
+/// Half floats end at 65504. A stated scale keeps a sun within them; what is cut without one is counted.
+#[test]
+fn a_scale_keeps_suns_within_halves() {
+    let bench = Bench::new();
+    save_sky(&bench, "sky.exr", 64, |i, j| if (i, j) == (20, 10) { [250_000.0; 3] } else { [0.18; 3] });
+    let chain = ["light", "specular", "sky.exr", "a.ktx2", "--levels", "3", "--size", "64", "--json", "-y"];
+    let run = |args: &[&str]| {
+        let output = bench.run(&[&chain[..], args].concat());
+        let report: Value = serde_json::from_str(&text(&output.stdout)).unwrap();
+        (report, text(&output.stderr))
+    };
+    let (plain, said) = run(&[]);
+    assert_says(&said, &["a.ktx2", "brighter than --depth half holds", "--scale auto"]);
+    assert_eq!(plain["light"][0]["scale"], 1.0);
+    let (fitted, said) = run(&["--scale", "auto"]);
+    let peak = plain["light"][0]["peak_out"].as_f64().unwrap();
+    let scale = (65504.0 / peak).log2().floor().exp2();
+    assert_says(&said, &[&format!("written times {scale}"), "lightScale"]);
+    assert!(scale < 1.0 && bench.bytes("a.ktx2").windows(11).any(|key| key == b"lightScale\0"));
+    for (level, plain) in fitted["light"].as_array().unwrap().iter().zip(plain["light"].as_array().unwrap()) {
+        assert_eq!((&level["scale"], &level["overflowed_samples"]), (&scale.into(), &0.into()));
+        let (found, expected) = (level["energy_out"][0].as_f64().unwrap(), plain["energy_out"][0].as_f64().unwrap());
+        assert!((found / expected - 1.0).abs() < 1e-6, "figures are those of the light: {found}, {expected}");
+    }
+    // A factor of one's own, in a map of floats.
+    bench.succeed(&["light", "diffuse", "sky.exr", "one.exr"]);
+    bench.succeed(&["light", "diffuse", "sky.exr", "half.exr", "--scale", "0.5"]);
+    let pairs = light(&bench, "one.exr").into_iter().zip(light(&bench, "half.exr"));
+    assert!(pairs.into_iter().all(|(one, half)| one.map(|light| 0.5 * light) == half));
+    // Integers end at 1; this irradiance is within halves.
+    for (name, says) in [("a.tga", &["TGA has no place", "irradiance", "written times"][..]), ("a.dds", &["DDS has no place"])] {
+        let args = ["light", "diffuse", "sky.exr", name, "--scale", "auto"];
+        assert_says(&text(&bench.run(&args).stderr), says);
+    }
+    bench.succeed(&["light", "diffuse", "sky.exr", "a.jpg", "--scale", "auto"]);
+    let comment =
+        |bytes: &[u8]| bytes.windows(35).any(|bytes| bytes.starts_with(b"lightUnit: irradiance; lightScale: "));
+    assert!(comment(&bench.bytes("a.jpg")));
+    for frame in ["1", "2"] {
+        std::fs::copy(bench.path("sky.exr"), bench.path(&format!("sky.000{frame}.exr"))).unwrap();
+    }
+    let frames = ["light", "diffuse", "sky.####.exr", "map.####.png", "--scale"];
+    assert_says(&bench.fail(2, &[&frames[..], &["auto"]].concat()), &["--scale auto", "2 frames", "--scale 0.25"]);
+    assert_says(&bench.fail(2, &[&frames[..], &["0"]].concat()), &["a factor more than 0"]);
+}
+
+/// The levels of an OpenEXR file are those of a chain in files of their own, and go down to one pixel.
+#[test]
+fn a_chain_is_in_the_mip_levels_of_openexr() {
+    let bench = Bench::new();
+    save_sky(&bench, "sky.exr", 64, |i, j| [1.0 + (i % 7) as f32, j as f32, 3.0]);
+    let chain = ["light", "specular", "sky.exr", "--json"];
+    let run = |args: &[&str]| -> Value { serde_json::from_str(&bench.succeed(&[&chain[..], args].concat())).unwrap() };
+    let three = ["--levels", "3", "--size", "64"];
+    let (whole, apart) =
+        (run(&[&["mips.exr"][..], &three[..]].concat()), run(&[&["level_{level}.exr"][..], &three[..]].concat()));
+    let alphas = |report: &Value| -> Vec<f64> {
+        report["light"].as_array().unwrap().iter().map(|level| level["alpha"].as_f64().unwrap()).collect()
+    };
+    assert_eq!(alphas(&whole), [&alphas(&apart)[..], &[1.0; 4]].concat());
+    assert_eq!(whole["light"][1]["energy_out"], apart["light"][1]["energy_out"]);
+    assert_eq!(light(&bench, "mips.exr"), light(&bench, "level_0.exr"));
+    run(&["{face}.exr", "--levels", "2", "--size", "16"]);
+    assert_eq!(bench.load("front.exr").width(), 16);
+    if std::process::Command::new("oiiotool").arg("--help").output().is_ok() {
+        let select = ["mips.exr", "--selectmip", "2", "-o", "two.exr"];
+        let status = std::process::Command::new("oiiotool").current_dir(bench.path("")).args(select).status();
+        assert!(status.unwrap().success());
+        assert_eq!(light(&bench, "two.exr"), light(&bench, "level_2.exr"));
+    }
 }

@@ -126,3 +126,29 @@ fn mistakes_about_suns_are_answered() {
     let output = bench.run(&["light", "sun", "sky.exr", "--remove", "a.hdr"]);
     assert!(output.status.success(), "{}", text(&output.stderr));
 }
+
+/// Each frame of a sequence loses its own suns.
+#[test]
+fn suns_of_sequences_are_taken_out_frame_by_frame() {
+    let bench = Bench::new();
+    for frame in 3..6 {
+        let sun = |i: usize, j: usize| if (i, j) == (10 * frame, 20) { [3000.0; 3] } else { [0.2; 3] };
+        save_sky(&bench, &format!("sky.{frame:04}.exr"), 128, sun);
+    }
+    let found = report(&bench, &["sky.####.exr", "--remove", "left/####.exr"]);
+    let frames = found["frames"].as_array().unwrap();
+    assert_eq!(frames.iter().map(|frame| frame["frame"].as_u64().unwrap()).collect::<Vec<_>>(), [3, 4, 5]);
+    for (number, frame) in (3..).zip(frames) {
+        let yaw = (f64::from(10 * number) + 0.5) / 128.0 * 360.0 - 180.0;
+        assert!((frame["suns"][0]["yaw"].as_f64().unwrap() - yaw).abs() < 0.05, "{frame}");
+        assert!(
+            light(&bench, &format!("left/{number:04}.exr")).iter().flatten().all(|light| (light - 0.2).abs() < 1e-6)
+        );
+    }
+    assert_says(
+        &bench.succeed(&["light", "sun", "sky.####.exr", "--remove", "left/####.exr", "--frames", "4", "-y"]),
+        &["frame 4:"],
+    );
+    assert_says(&bench.fail(1, &["light", "sun", "sky.####.exr", "--remove", "left/####.exr"]), &["3 outputs exist"]);
+    assert_says(&bench.fail(2, &["light", "sun", "sky.0003.exr", "--remove", "left.####.exr"]), &["frame marker"]);
+}

@@ -129,6 +129,7 @@ fn every_verb_has_a_manual_page_with_examples_and_without_empty_sections() {
         "man1/cosmorama-light-specular.1",
         "man1/cosmorama-light-harmonics.1",
         "man1/cosmorama-light-brdf.1",
+        "man1/cosmorama-light-deploy.1",
         "man1/cosmorama-light-sun.1",
         "man1/cosmorama-light-table.1",
         "man7/cosmorama-spec.7",

@@ -17,6 +17,7 @@ use crate::engine::{
 use crate::input::InputView;
 use crate::job::coverage::Coverage;
 use crate::job::{ConvertJob, FrameOutputs, QueueDepth};
+use crate::settings::LightScale;
 use crate::target::{Sheet, Target};
 
 /// Makes the outputs of a job, frame by frame.
@@ -247,8 +248,12 @@ impl<'a> Engine<'a> {
                 return Err(self.stopped());
             }
         }
+        let scale = maps.scale(&mut made);
+        if self.job.lighting.as_ref().is_some_and(|light| light.scale == LightScale::Fitting) {
+            self.writer.say(LightScale::remark(scale));
+        }
         let measured: Vec<_> = views.iter().zip(&made).collect();
-        let reports = LightReport::of(self.job, frame.frame, light.texels(), &measured);
+        let reports = LightReport::of(self.job, frame.frame, light.texels(), (&measured, scale));
         lock(&self.lit).extend(reports);
         let posed = self.posed(frame, progress)?;
         frame.files.iter().map(|(file, _)| self.map_file((&posed, *file), &made)).collect()

@@ -5,7 +5,7 @@ use cosmorama::world::World;
 use crate::diagnostic::{MISSING, Result, bail};
 use crate::engine::Texels;
 use crate::job::ConvertJob;
-use crate::settings::{LightLevel, LightSettings};
+use crate::settings::{LightLevel, LightScale, LightSettings};
 use crate::target::TargetView;
 
 /// Light of a frame, prepared to be averaged under lobes.
@@ -51,9 +51,27 @@ impl<'a> LightMaps<'a> {
     fn under(&self, target: &TargetView, lobe: &Lobe) -> Image<Rgba> {
         let world = &self.worlds[target.world(self.worlds.len())];
         let mut image = world.picture(&target.view, lobe, self.unseen);
-        let scale = self.settings.scale() as f32;
+        let scale = self.settings.factor() as f32;
         image.pixels_mut().iter_mut().for_each(|pixel| *pixel = scaled(*pixel, scale));
         image
+    }
+
+    /// Brings maps to the scale that is asked for, and returns it.
+    pub(crate) fn scale(&self, made: &mut [Image<Rgba>]) -> f64 {
+        let scale = match self.settings.scale {
+            LightScale::Factor(factor) => factor,
+            LightScale::Fitting => {
+                let samples = made.iter().flat_map(|image| image.pixels()).flat_map(|pixel| &pixel.0[..3]);
+                let peak = f64::from(samples.fold(0.0, |peak: f32, sample| peak.max(*sample)));
+                let most = f64::from(self.job.light.depth.most());
+                if peak > most { (most / peak).log2().floor().exp2() } else { 1.0 }
+            }
+        };
+        if scale != 1.0 {
+            let pixels = made.iter_mut().flat_map(|image| image.pixels_mut());
+            pixels.for_each(|pixel| *pixel = scaled(*pixel, scale as f32));
+        }
+        scale
     }
 
     fn mirrored(&self, target: &TargetView) -> Image<Rgba> {
@@ -95,8 +113,10 @@ pub struct LightReport {
     pub alpha: Option<f64>,
     /// Light of the input; of a stereo pair, the left eye's.
     pub input: LightFigures,
-    /// Light of the map as radiance, without the factor of the map's unit.
+    /// Light of the map as radiance, without the factors of the map's unit and scale.
     pub output: LightFigures,
+    /// Factor by which the map's light is written.
+    pub scale: f64,
     /// Samples of the map that its sample type cannot hold, and that are written as the largest it can.
     pub overflowed: usize,
 }
@@ -107,7 +127,7 @@ impl LightReport {
         job: &ConvertJob,
         frame: Option<u64>,
         texels: &Texels,
-        maps: &[(&TargetView, &Image<Rgba>)],
+        (maps, factor): (&[(&TargetView, &Image<Rgba>)], f64),
     ) -> Vec<Self> {
         let (Some(settings), Texels::Float(lights)) = (&job.lighting, texels) else { return Vec::new() };
         let input = LightFigures::of(&job.worlds[0], &lights[0]);
@@ -115,7 +135,7 @@ impl LightReport {
             let of_level: Vec<_> = maps.iter().filter(|(target, _)| target.level == level).collect();
             let first = || of_level.iter().filter(|(target, _)| target.world(2) == 0);
             let world = World::new(first().map(|(target, _)| (target.name.clone(), target.view.clone()))).ok()?;
-            let scale = settings.scale().recip() as f32;
+            let scale = (settings.factor() * factor).recip() as f32;
             let radiance: Vec<Rgba> =
                 first().flat_map(|(_, image)| image.pixels()).map(|pixel| scaled(*pixel, scale)).collect();
             let alpha = match kind {
@@ -125,7 +145,7 @@ impl LightReport {
             };
             let output = LightFigures::of(&world, &radiance);
             let overflowed = overflowed(job, of_level.iter().map(|(_, image)| *image));
-            Some(Self { frame, level, alpha, input, output, overflowed })
+            Some(Self { frame, level, alpha, input, output, scale: factor, overflowed })
         };
         settings.levels.iter().enumerate().filter_map(level).collect()
     }

@@ -46,6 +46,16 @@ impl Codec for Exr {
         writer::write(path, output, image, options)
     }
 
+    fn encode_levels(
+        &self,
+        path: &Path,
+        output: Sink<'_>,
+        levels: &[EncodedImage],
+        options: &WriteOptions,
+    ) -> Result<(), IoError> {
+        writer::write_levels(path, output, levels, options)
+    }
+
     fn probe_chosen(&self, path: &Path, source: Source<'_>, choice: &Choice) -> Result<Header, IoError> {
         reader::probe(path, source, choice)
     }

@@ -4,7 +4,9 @@ use std::path::Path;
 use cosmorama::raster::{AlphaMode, Channels, Depth, EncodedImage, FramePool, Sample, Samples};
 use exr::compression::Compression as Packing;
 use exr::image::write::WritableImage;
-use exr::image::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer};
+use exr::image::write::samples::WritableSamples;
+use exr::image::{AnyChannel, AnyChannels, Blocks, Encoding, FlatSamples, Image, Layer, Levels};
+use exr::math::{RoundingMode, Vec2};
 use exr::meta::attribute::{AttributeValue, EnvironmentMap, Text};
 use exr::meta::header::LayerAttributes;
 use exr::prelude::SmallVec;
@@ -22,7 +24,45 @@ pub(crate) fn write(
     image: &EncodedImage,
     options: &WriteOptions,
 ) -> Result<(), IoError> {
-    save(path, output, (image.width(), image.height()), picture(path, image, &[], options)?, options)
+    save_lines(path, output, (image.width(), image.height()), picture(path, image, &[], options)?, options)
+}
+
+/// Rows and columns of a tile, as `maketx` and `exrmaketiled` have them.
+const TILE: Vec2<usize> = Vec2(64, 64);
+
+/// Writes tiles of a picture and its mip levels, down to one pixel.
+pub(crate) fn write_levels(
+    path: &Path,
+    output: impl Write + Seek,
+    levels: &[EncodedImage],
+    options: &WriteOptions,
+) -> Result<(), IoError> {
+    let [largest, _, ..] = levels else { return write(path, output, &levels[0], options) };
+    let (width, height) = (largest.width(), largest.height());
+    let count = width.max(height).max(1).ilog2() as usize + 1;
+    if levels.len() != count {
+        return Err(IoError::write(
+            path,
+            format_args!("{} levels, but {width}x{height} pixels have {count}", levels.len()),
+        ));
+    }
+    let mut all = Planes::new();
+    for (level, image) in levels.iter().enumerate() {
+        let half = |pixels: usize| (pixels >> level).max(1);
+        let is_half = (image.width(), image.height()) == (half(width), half(height));
+        if !is_half || (image.channels(), image.depth()) != (largest.channels(), largest.depth()) {
+            return Err(IoError::write(path, format_args!("level {level} is no half of the level before")));
+        }
+        all.extend(picture(path, image, &[], options)?);
+    }
+    let channels = largest.channels().count();
+    let channel = |first: usize| {
+        let planes = all.iter().skip(first).step_by(channels);
+        let level_data = planes.map(|plane| plane.sample_data.clone()).collect();
+        AnyChannel::new(all[first].name.clone(), Levels::Mip { rounding_mode: RoundingMode::Down, level_data })
+    };
+    let list = (0..channels).map(channel).collect();
+    save(path, output, ((width, height), Blocks::Tiles(TILE)), list, options).map(drop)
 }
 
 /// Writes a picture with named channels beside it.
@@ -48,7 +88,7 @@ pub(crate) fn write_layers(
             list.push(AnyChannel::new(name, samples));
         }
     }
-    save(path, output, size, list, options)
+    save_lines(path, output, size, list, options)
 }
 
 /// Channels of a file.
@@ -80,22 +120,36 @@ pub(crate) fn write_planes(
         _ => FlatSamples::F32(numbers),
     };
     let list = planes.into_iter().map(|(name, numbers)| AnyChannel::new(name, samples(numbers))).collect();
-    save(path, output, size, list, options)
+    save_lines(path, output, size, list, options)
 }
 
-fn save(
+/// Writes scan lines, and gives their memory back.
+fn save_lines(
     path: &Path,
     output: impl Write + Seek,
     size: (usize, usize),
     list: Planes,
     options: &WriteOptions,
 ) -> Result<(), IoError> {
+    let list = save(path, output, (size, Blocks::ScanLines), list, options)?;
+    list.into_iter().for_each(|plane| give_back(plane.sample_data, &options.pool));
+    Ok(())
+}
+
+/// Writes channels, and returns them.
+fn save<S: for<'s> WritableSamples<'s> + 'static>(
+    path: &Path,
+    output: impl Write + Seek,
+    (size, blocks): ((usize, usize), Blocks),
+    list: SmallVec<[AnyChannel<S>; 4]>,
+    options: &WriteOptions,
+) -> Result<SmallVec<[AnyChannel<S>; 4]>, IoError> {
     let packing = match options.compression {
         Compression::None => Packing::Uncompressed,
         Compression::Fast => Packing::RLE,
         Compression::Balanced | Compression::High => Packing::ZIP16,
     };
-    let encoding = Encoding { compression: packing, ..Encoding::SMALL_LOSSLESS };
+    let encoding = Encoding { compression: packing, blocks, ..Encoding::SMALL_LOSSLESS };
     let mut own = LayerAttributes {
         environment_map: options.metadata.envmap.and_then(|kind| match kind {
             EnvMap::LatLong => Some(EnvironmentMap::LatitudeLongitude),
@@ -110,7 +164,7 @@ fn save(
     let mut time_code = None;
     attributes::add(&options.metadata.carried, &mut own, &mut time_code);
     let remarks = options.metadata.remarks.iter();
-    own.other.extend(remarks.map(|remark| (Text::from(remark.name), AttributeValue::Text(Text::from(remark.text)))));
+    own.other.extend(remarks.map(|remark| (Text::from(remark.name), AttributeValue::Text(Text::from(&*remark.text)))));
     let layer = Layer::new(size, own, encoding, AnyChannels::sort(list));
     let mut picture = Image::from_layer(layer);
     picture.attributes.time_code = time_code;
@@ -122,8 +176,8 @@ fn save(
     } else {
         writer.non_parallel().to_buffered(output)
     };
-    picture.layer_data.channel_data.list.into_iter().for_each(|plane| give_back(plane.sample_data, &options.pool));
-    written.map_err(|error| IoError::write(path, error))
+    written.map_err(|error| IoError::write(path, error))?;
+    Ok(picture.layer_data.channel_data.list)
 }
 
 /// Gives the memory of a written plane back.

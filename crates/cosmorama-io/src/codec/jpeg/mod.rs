@@ -90,7 +90,11 @@ impl Codec for Jpeg {
         let packet =
             packet.map_or_else(Vec::new, |packet| segment(b"http://ns.adobe.com/xap/1.0/\0", packet.as_bytes()));
         let (start, rest) = bytes.split_at(end_of_jfif(&bytes));
-        [start, &exif, &packet, rest].iter().try_for_each(|part| output.write_all(part)).map_err(|error| fail(&error))
+        let comment = comment(metadata);
+        [start, &exif, &packet, &comment, rest]
+            .iter()
+            .try_for_each(|part| output.write_all(part))
+            .map_err(|error| fail(&error))
     }
 }
 
@@ -122,6 +126,16 @@ fn metadata<T: ZByteReaderTrait>(decoder: &JpegDecoder<T>, size: (usize, usize))
 fn segment(name: &[u8], content: &[u8]) -> Vec<u8> {
     let Ok(length) = u16::try_from(2 + name.len() + content.len()) else { return Vec::new() };
     [&[0xff, 0xe1], &length.to_be_bytes()[..], name, content].concat()
+}
+
+/// Returns the comment that says what the program states about the pixels; empty if that is nothing.
+fn comment(metadata: &Metadata) -> Vec<u8> {
+    let remarks = metadata.remarks.iter().map(|remark| format!("{}: {}", remark.name, remark.text));
+    let text = remarks.collect::<Vec<_>>().join("; ");
+    match u16::try_from(2 + text.len()) {
+        Ok(length) if length > 2 => [&[0xff, 0xfe], &length.to_be_bytes()[..], text.as_bytes()].concat(),
+        _ => Vec::new(),
+    }
 }
 
 /// Returns the end of the start mark and of the JFIF segment, which must come first.

@@ -192,3 +192,17 @@ fn faces_to_write(path: &Path, format: Format, image: &EncodedImage, metadata: &
         _ => Err(cannot(format!("{} of depth {}", image.channels(), image.depth()))),
     }
 }
+
+/// Encodes what KTX files say under names, in order: the orientation of pictures, and remarks. Each pair is aligned to four bytes.
+pub(super) fn key_values(orientation: (&str, &str), metadata: &Metadata) -> Vec<u8> {
+    let mut pairs = vec![orientation, ("KTXwriter", "cosmorama")];
+    pairs.extend(metadata.remarks.iter().map(|remark| (remark.name, &*remark.text)));
+    pairs.sort_unstable();
+    let mut bytes = Vec::new();
+    for (key, value) in pairs {
+        bytes.extend(((key.len() + value.len() + 2) as u32).to_le_bytes());
+        bytes.extend(format!("{key}\0{value}\0").into_bytes());
+        bytes.resize(bytes.len().next_multiple_of(4), 0);
+    }
+    bytes
+}

@@ -3,7 +3,7 @@ use std::path::Path;
 
 use cosmorama::raster::{AlphaMode, Depth, EncodedImage, FramePool, Transfer};
 
-use super::cube::{CubeTexture, EXPECTED};
+use super::cube::{CubeTexture, EXPECTED, key_values, levels_to_write};
 use super::texel::{BlockFormat, Texels};
 use crate::codec::interface::{Codec, Sink, Source};
 use crate::{Format, Header, ImageFile, IoError, Limits, WriteOptions};
@@ -23,6 +23,9 @@ mod gl {
     pub(super) const BGRA: u32 = 0x80e1;
     pub(super) const SRGB8: u32 = 0x8c41;
     pub(super) const SRGB8_ALPHA8: u32 = 0x8c43;
+    pub(super) const RGBA8: u32 = 0x8058;
+    pub(super) const RGBA32F: u32 = 0x8814;
+    pub(super) const RGBA16F: u32 = 0x881a;
     pub(super) const R11F_G11F_B10F: u32 = 0x8c3a;
     pub(super) const RGB9_E5: u32 = 0x8c3d;
     pub(super) const RGB_DXT1: u32 = 0x83f0;
@@ -39,16 +42,17 @@ mod gl {
     pub(super) const RGB_BPTC_UNSIGNED_FLOAT: u32 = 0x8e8f;
 }
 
-/// Number of integers after the twelve bytes of identification.
+const MAGIC: &[u8; 12] = b"\xabKTX 11\xbb\r\n\x1a\n";
+/// Number of integers after the identification.
 const NUMBERS: usize = 13;
 const LITTLE_ENDIAN: u32 = 0x0403_0201;
 
-/// Codec of cube maps in KTX textures of version 1, read-only.
+/// Codec of cube maps in KTX textures of version 1.
 pub(crate) struct Ktx;
 
 impl Codec for Ktx {
     fn recognises(&self, start: &[u8]) -> bool {
-        start.starts_with(&[0xab, b'K', b'T', b'X', b' ', b'1', b'1', 0xbb])
+        start.starts_with(&MAGIC[..8])
     }
 
     fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
@@ -59,8 +63,56 @@ impl Codec for Ktx {
         texture(path, source)?.read(path, FORMAT, source, limits)
     }
 
-    fn encode(&self, path: &Path, _: Sink<'_>, _: &EncodedImage, _: &WriteOptions) -> Result<(), IoError> {
-        Err(IoError::write(path, "KTX files of the first version are only read; write .ktx2"))
+    fn encode(
+        &self,
+        path: &Path,
+        output: Sink<'_>,
+        image: &EncodedImage,
+        options: &WriteOptions,
+    ) -> Result<(), IoError> {
+        self.encode_levels(path, output, std::slice::from_ref(image), options)
+    }
+
+    /// Writes six faces with their mip levels: RGBA of 8 bits, sRGB unless the light is linear, halves or floats.
+    fn encode_levels(
+        &self,
+        path: &Path,
+        output: Sink<'_>,
+        levels: &[EncodedImage],
+        options: &WriteOptions,
+    ) -> Result<(), IoError> {
+        let (levels_of_faces, edge) = levels_to_write(path, FORMAT, levels, &options.metadata)?;
+        let depth = levels.first().map_or(Depth::Eight, EncodedImage::depth);
+        let (kind, size, internal) = match (depth, &options.metadata.transfer) {
+            (Depth::Half, _) => (gl::HALF_FLOAT, 2, gl::RGBA16F),
+            (Depth::Float, _) => (gl::FLOAT, 4, gl::RGBA32F),
+            (_, None | Some(Transfer::Srgb)) => (gl::UNSIGNED_BYTE, 1, gl::SRGB8_ALPHA8),
+            _ => (gl::UNSIGNED_BYTE, 1, gl::RGBA8),
+        };
+        let pairs = key_values(("KTXorientation", "S=r,T=d"), &options.metadata);
+        let numbers: [u32; NUMBERS] = [
+            LITTLE_ENDIAN,
+            kind,
+            size,
+            gl::RGBA,
+            internal,
+            gl::RGBA,
+            edge,
+            edge,
+            0,
+            0,
+            6,
+            levels.len() as u32,
+            pairs.len() as u32,
+        ];
+        let numbers: Vec<u8> = numbers.into_iter().flat_map(u32::to_le_bytes).collect();
+        let mut write = |bytes: &[u8]| output.write_all(bytes).map_err(|error| IoError::write(path, error));
+        [&MAGIC[..], &numbers, &pairs].into_iter().try_for_each(&mut write)?;
+        // Of a cube, a level's size is that of one face.
+        levels_of_faces.iter().try_for_each(|faces| {
+            write(&(faces.len() as u32 / 6).to_le_bytes())?;
+            write(faces)
+        })
     }
 }
 
@@ -105,7 +157,7 @@ fn texture(path: &Path, source: Source<'_>) -> Result<CubeTexture, IoError> {
         texels,
         transfer,
         primaries: Ok(None),
-        alpha: AlphaMode::Straight,
+        alpha: if texels.depth() == Depth::Eight { AlphaMode::Straight } else { AlphaMode::Premultiplied },
         edge: width,
         row_alignment: 4,
         offsets: [0; 6],

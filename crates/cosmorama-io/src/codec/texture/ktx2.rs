@@ -4,7 +4,7 @@ use std::path::Path;
 use cosmorama::raster::{AlphaMode, Channels, Depth, EncodedImage, FramePool, Samples, Transfer};
 use ktx2::{Format as Vk, Header as Ktx2Header, Index, LevelIndex, SupercompressionScheme as Scheme};
 
-use super::cube::{CubeTexture, EXPECTED, levels_to_write};
+use super::cube::{CubeTexture, EXPECTED, key_values, levels_to_write};
 use super::packing::{Packed, Packing};
 use super::texel::{BlockFormat, Texels};
 use crate::codec::interface::{Codec, Sink, Source};
@@ -118,11 +118,7 @@ impl Written {
             (_, Some(transfer)) => (Vk::R8G8B8A8_UNORM, 1, khronos::transfer_code(transfer)),
         };
         let described = describe(type_size as u8, transfer, khronos::primaries_code(metadata.primaries.as_ref()));
-        // Keys are in order.
-        let mut pairs = vec![("KTXorientation", "rd"), ("KTXwriter", "cosmorama")];
-        pairs.extend(metadata.remarks.iter().map(|remark| (remark.name, remark.text)));
-        pairs.sort_unstable();
-        let words = key_values(&pairs);
+        let words = key_values(("KTXorientation", "rd"), metadata);
         let dfd = (Ktx2Header::LENGTH + LevelIndex::LENGTH * levels.len()) as u32;
         let kvd = dfd + described.len() as u32;
         // A level begins at a multiple of a texel.
@@ -321,17 +317,6 @@ fn describe(sample_bytes: u8, transfer: u8, primaries: u8) -> Vec<u8> {
         let (lower, upper) = if float { ((-1.0_f32).to_bits(), 1.0_f32.to_bits()) } else { (0, 255) };
         bytes.extend(lower.to_le_bytes());
         bytes.extend(upper.to_le_bytes());
-    }
-    bytes
-}
-
-/// Encodes keys and values, each pair aligned to four bytes.
-fn key_values(pairs: &[(&str, &str)]) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    for (key, value) in pairs {
-        bytes.extend(((key.len() + value.len() + 2) as u32).to_le_bytes());
-        bytes.extend(format!("{key}\0{value}\0").into_bytes());
-        bytes.resize(bytes.len().next_multiple_of(4), 0);
     }
     bytes
 }
