@@ -273,7 +273,7 @@ fn normals_and_depth_with_red_green_and_blue_are_no_picture() {
     let told =
         bench.fail(2, &["convert", "z.exr", "z.tif", "--from", "equirect", "--to", "equirect", "--channels", "Z"]);
     assert_says(&told, &["TIFF files hold light, but Z of z.exr holds depth"]);
-    let told = bench.fail(2, &["light", "n.exr", "l.hdr", "--to", "equirect"]);
+    let told = bench.fail(2, &["light", "diffuse", "n.exr", "l.hdr"]);
     assert_says(&told, &["this needs light, but normal.R"]);
 }
 
