@@ -53,7 +53,7 @@ pub struct Metadata {
     pub orientation: Option<u16>,
     /// Name of the program that wrote the file.
     pub software: Option<String>,
-    /// What the stored codes are where those that are read are others, in words, such as codes of fewer than 8 bits.
+    /// Description of the stored codes where those that are read are others, such as "of 4 bits".
     pub rescaled: Option<String>,
     /// Pose of the camera, from the GPano metadata of a panorama.
     pub pose: Option<Pose>,

@@ -91,10 +91,10 @@ fn told<const N: usize>(chunk: &str, mut metadata: Metadata, sayings: [Option<(&
 fn rescaled(info: &Info<'_>) -> Option<String> {
     let bits = info.bit_depth as u8;
     let is_small = bits < 8 && info.color_type == ColorType::Grayscale;
-    match is_narrow(info) {
-        true => Some("of narrow range, as in video".to_owned()),
-        false => is_small.then(|| format!("of {bits} bits")),
+    if is_narrow(info) {
+        return Some("of narrow range, as in video".to_owned());
     }
+    is_small.then(|| format!("of {bits} bits"))
 }
 
 /// Returns whether code values run from 16 to 235, as in video.
