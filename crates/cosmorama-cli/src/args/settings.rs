@@ -30,7 +30,7 @@ impl From<ConvertArgs> for Conversion {
             ignore_profile: args.ignore_profile,
             ocio: args.ocio.into(),
             part: args.part,
-            channels: args.channels,
+            channels: args.channels.iter().map(|name| name.trim().to_owned()).collect(),
             layers: LayerSettings { depth: args.depth_kind, normals: args.normals },
             depth: args.depth.map(Depth::from),
             background: args.background.map(|colour| colour.0),

@@ -74,7 +74,9 @@ impl InputTransfer {
     /// Returns the transfer function of a file of this depth with this metadata.
     pub fn of(&self, depth: Depth, metadata: &Metadata) -> Transfer {
         if depth.is_float() {
-            return self.all.clone().unwrap_or(Transfer::Linear);
+            // Profiles beside floats speak of other programs' displays; other tags speak of the values.
+            let said = || metadata.transfer.clone().filter(|_| metadata.icc.is_none());
+            return self.all.clone().or_else(said).unwrap_or(Transfer::Linear);
         }
         self.integers.clone().or_else(|| metadata.transfer.clone()).unwrap_or_default()
     }
@@ -101,6 +103,11 @@ impl Light {
         let first = headers.first().and_then(|first| white_of(&first.metadata, &side.of(first.depth, &first.metadata)));
         let working = Working::new(args, primaries, &transfer, first);
         let metadata = metadata(args, &headers, target, (&transfer, &working, depth), warnings);
+        if target.format == Format::Exr && transfer != Transfer::Linear {
+            let message = "OpenEXR files hold linear light for most programs, whatever their attributes say: these values \
+                           are encoded";
+            warnings.push(Diagnostic::warning(Code::Primaries, message));
+        }
         let default = if channels.has_alpha() { Rgba::TRANSPARENT } else { Rgba::BLACK };
         let light = Self {
             input: side,
@@ -336,6 +343,7 @@ fn metadata(
         transfer: Some(transfer.clone()),
         icc: icc.filter(|_| keep),
         profile_fault: None,
+        rescaled: None,
         envmap: target.envmap,
         panorama: target.panorama,
         complaints: Vec::new(),
@@ -343,7 +351,10 @@ fn metadata(
         other_channels: Vec::new(),
         layers: Layers::default(),
         primaries: is_named.then_some(working.primaries),
-        white_luminance: working.white.filter(|_| target.format == Format::Exr).map(|white| white as f32),
+        white_luminance: working
+            .white
+            .filter(|_| target.format == Format::Exr && !matches!(transfer, Transfer::Pq | Transfer::Hlg))
+            .map(|white| white as f32),
         orientation: None,
         software: Some(concat!("cosmorama ", env!("CARGO_PKG_VERSION")).to_owned()),
         pose: None,

@@ -17,5 +17,5 @@ pub use thin_alpha::ThinAlpha;
 
 pub(crate) use conversion::LightConversion;
 pub(crate) use labels::check_labels;
-pub(crate) use layers::{LayerContent, LayerGroup, LayerPlan, PictureNames, check_choice};
+pub(crate) use layers::{LayerContent, LayerGroup, LayerPlan, PictureNames, check_choice, check_light};
 pub(crate) use light::{FileColours, Light};

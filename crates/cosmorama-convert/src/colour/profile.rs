@@ -14,7 +14,7 @@ use crate::settings::Conversion;
 /// Returns the headers of all files, without the profiles that are ignored, and warns about those.
 pub(super) fn headers(args: &Conversion, input: &Input, warnings: &mut Vec<Diagnostic>) -> Vec<Header> {
     let headers: Vec<Header> = input.present().map(|(_, header, _)| header.clone()).collect();
-    let count = headers.iter().filter(|header| header.metadata.icc.is_some()).count();
+    let count = headers.iter().filter(|header| has_profile(&header.metadata)).count();
     if !args.ignore_profile {
         return headers;
     }
@@ -26,9 +26,14 @@ pub(super) fn headers(args: &Conversion, input: &Input, warnings: &mut Vec<Diagn
     headers.into_iter().map(without).collect()
 }
 
+/// Returns whether a file has a profile, if only a damaged one.
+fn has_profile(metadata: &Metadata) -> bool {
+    metadata.icc.is_some() || metadata.profile_fault.is_some()
+}
+
 /// Returns the metadata that count: those without the profile, if it is ignored.
 pub(super) fn seen(metadata: &Metadata, ignores_profiles: bool) -> Cow<'_, Metadata> {
-    if !ignores_profiles || metadata.icc.is_none() {
+    if !ignores_profiles || !has_profile(metadata) {
         return Cow::Borrowed(metadata);
     }
     let bare = Metadata { icc: None, profile_fault: None, transfer: None, primaries: None, ..metadata.clone() };

@@ -2,7 +2,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use cosmorama::camera::View;
-use cosmorama::filter::{FilterSettings, Kernel};
+use cosmorama::filter::{FilterKind, FilterSettings, Kernel};
 use cosmorama::lighting::PreparedLight;
 use cosmorama::motion::{Exposure, Moment, Pose};
 use cosmorama::raster::Rgba;
@@ -15,7 +15,7 @@ use super::Content;
 use super::gaps::Shot;
 use super::memory_needs::gathered_bytes;
 use super::options::{check_file_options, filter};
-use crate::colour::{LayerPlan, Light, check_choice, check_labels};
+use crate::colour::{LayerPlan, Light, check_choice, check_labels, check_light};
 use crate::detect::unless_damaged;
 use crate::diagnostic::{Code, Diagnostic, MOTION, PATH, Result, SCALE, SHUTTER, YAW, usage};
 use crate::input::Input;
@@ -167,7 +167,10 @@ impl ConvertJob {
         } else {
             LayerPlan::default()
         };
-        check_labels(&filter, &input, &light, target.format)?;
+        if content == Content::World && (settings.light.is_some() || purpose == Purpose::Light) {
+            check_light(&input, "this needs")?;
+        }
+        check_labels(&filter, &input, (&light, target.format), warnings)?;
         content.settle(settings, &target, &mut light, warnings)?;
         memory.check_outputs(&target)?;
         let outputs = match purpose {
@@ -260,7 +263,9 @@ impl ConvertJob {
     /// Finds out whether a shutter blurs any frame, and keeps memory for that.
     fn find_blur(&mut self, content: Content, warnings: &mut Vec<Diagnostic>) -> Result<()> {
         let Some(blur) = self.movement.as_ref().and_then(|movement| movement.blur) else { return Ok(()) };
-        if matches!(content, Content::StMap | Content::Directions(_)) {
+        if matches!(content, Content::StMap | Content::Directions(_))
+            || matches!(self.filter.kind, FilterKind::Labels(_))
+        {
             let message =
                 format!("{SHUTTER} has no effect: numbers are not blurred, and are those of the frame's own time");
             warnings.push(Diagnostic::warning(Code::NoEffect, message));
@@ -272,6 +277,10 @@ impl ConvertJob {
         for frame in self.input.frames.clone() {
             if self.moments(frame)?.is_some() {
                 self.is_blurred = true;
+                if !self.layers.groups.is_empty() && !self.layers.leaves_picture_out() {
+                    let message = "channels beside the picture are not blurred, and are those of the frame's own time";
+                    warnings.push(Diagnostic::warning(Code::NoEffect, message));
+                }
                 self.memory = self.memory.beside_sum(&self.input, &self.target)?;
                 break;
             }

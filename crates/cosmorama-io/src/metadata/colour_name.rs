@@ -11,7 +11,7 @@ const NAMED: [(&str, Primaries, Transfer); 6] = [
 ];
 
 /// Gamma of Adobe RGB (1998), 4.3.4.2.
-const ADOBE_GAMMA: f64 = 563.0 / 256.0;
+pub(crate) const ADOBE_GAMMA: f64 = 563.0 / 256.0;
 
 /// Returns the name of a colour space as people say it, such as "Rec. 2020, PQ". `None` where a part is not known.
 pub(crate) fn colour_name(primaries: Option<&Primaries>, transfer: Option<&Transfer>) -> Option<String> {

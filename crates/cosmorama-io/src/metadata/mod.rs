@@ -7,8 +7,8 @@ mod layers;
 pub(crate) mod orientation;
 
 pub use carried::{Attribute, Carried, Exif, Kept, MetadataRoom, TextChunk};
-pub(crate) use carried::{LARGEST_ATTRIBUTE, LARGEST_EXIF, XMP, is_read, of_stored, stored};
-pub(crate) use colour_name::colour_name;
+pub(crate) use carried::{LARGEST_ATTRIBUTE, LARGEST_EXIF, XMP, iptc, is_read, of_stored, stored};
+pub(crate) use colour_name::{ADOBE_GAMMA, colour_name};
 pub use gpano::Pose;
 pub use layers::{FilePart, Layers, NamedChannel, SampleKind};
 
@@ -53,6 +53,8 @@ pub struct Metadata {
     pub orientation: Option<u16>,
     /// Name of the program that wrote the file.
     pub software: Option<String>,
+    /// Description of the stored codes where those that are read are others, such as "of 4 bits".
+    pub rescaled: Option<String>,
     /// Pose of the camera, from the GPano metadata of a panorama.
     pub pose: Option<Pose>,
     /// Other metadata of the file, which outputs may take over.
@@ -113,6 +115,11 @@ impl Metadata {
         }
         let profile = if is_colour { icc::made(transfer, &primaries) } else { icc::made_grey(transfer) };
         profile.map(Into::into)
+    }
+
+    /// Notes that the file has an ICC profile which cannot be read at all.
+    pub(crate) fn with_damaged_profile(self, reason: &str) -> Self {
+        Self { profile_fault: Some(ProfileFault::Damaged(reason.to_owned())), ..self }
     }
 
     /// Adds an ICC profile and what it says.

@@ -179,6 +179,17 @@ fn tags_of_a_png_that_contradict_each_other_are_told() {
     assert_eq!(found.complaints, Vec::<String>::new());
     let (.., found) = png(&image, &srgb, &[(b"cICP", &[12, 13, 0, 1])]);
     assert_eq!((found.primaries, found.complaints.len()), (Some(Primaries::P3_D65), 1));
+    let profile =
+        Metadata { icc: Some(moxcms::ColorProfile::new_display_p3().encode().unwrap()), ..Metadata::default() };
+    for (chunk, data, said) in
+        [(b"cHRM", &chroma[..], "its cHRM chunk Rec. 2020"), (b"sRGB", &[0], "its sRGB chunk sRGB")]
+    {
+        let (.., found) = png(&image, &profile, &[(chunk, data)]);
+        assert_eq!(found.primaries, Some(Primaries::P3_D65));
+        assert!(found.complaints.len() == 1 && found.complaints[0].contains(said), "{:?}", found.complaints);
+    }
+    let (.., found) = png(&image, &profile, &[(b"cICP", &[12, 13, 0, 1]), (b"cHRM", &chroma)]);
+    assert!(found.complaints.len() == 1 && found.complaints[0].contains("its cHRM chunk"), "{:?}", found.complaints);
     let (.., found) = png(&image, &Metadata::default(), &[(b"cHRM", &chroma)]);
     assert_eq!((found.primaries, found.transfer), (Some(Primaries::REC2020), None));
     let (.., found) = png(&image, &Metadata::default(), &[(b"cHRM", &[0; 32])]);
@@ -195,7 +206,10 @@ fn numbers_that_nobody_knows_are_named() {
         assert!(found.complaints.iter().any(|complaint| complaint.contains(said)), "{:?}", found.complaints);
         assert_eq!((found.primaries, found.transfer), (Some(Primaries::REC709), Some(Transfer::Srgb)));
     }
-    // Unspecified is no mistake.
+    // What is unspecified leaves the word to others, and is no mistake.
+    let profile = moxcms::ColorProfile::new_display_p3().encode().unwrap();
+    let (.., found) = png(&image, &Metadata { icc: Some(profile), ..Metadata::default() }, &[(b"cICP", &[2, 2, 0, 1])]);
+    assert_eq!((found.primaries, found.complaints.len()), (Some(Primaries::P3_D65), 0));
     let (.., found) = png(&image, &Metadata::default(), &[(b"cICP", &[2, 16, 0, 1])]);
     assert_eq!((found.primaries, found.transfer, found.complaints.len()), (None, Some(Transfer::Pq), 0));
     let folder = tempfile::tempdir().unwrap();
@@ -242,6 +256,77 @@ fn profiles_that_cannot_be_followed_say_why() {
         assert!(matches!(found.profile_fault, Some(ProfileFault::Damaged(_))), "{extension}");
         assert_eq!((found.transfer, found.primaries), (None, None));
     }
+}
+
+/// A profile that cannot even be unpacked, or of which a part is missing, is one that is damaged, and not none.
+#[test]
+fn what_is_left_of_a_profile_is_told() {
+    let is_damaged = |found: &Metadata| matches!(found.profile_fault, Some(ProfileFault::Damaged(_)));
+    let image = picture(8, 8, Channels::Rgb, Depth::Eight);
+    let packed = |method: u8| [b"profile\0", &[method, 0x78, 0x9c, 1, 2, 3][..]].concat();
+    for data in [packed(0), packed(1), b"no end".to_vec()] {
+        let (.., found) = png(&image, &Metadata::default(), &[(b"iCCP", &data)]);
+        assert!(is_damaged(&found), "{data:?}");
+        let (.., found) = png(&image, &Metadata::default(), &[(b"cICP", &[12, 13, 0, 1]), (b"iCCP", &data)]);
+        assert!(!is_damaged(&found) && found.complaints[0].contains("since it is damaged"), "{:?}", found.complaints);
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.jpg");
+    written(&path, &image, &tagged(Transfer::Srgb, Primaries::P3_D65));
+    let mut bytes = std::fs::read(&path).unwrap();
+    let name = bytes.windows(12).position(|window| window == b"ICC_PROFILE\0").unwrap();
+    // The first of two parts.
+    bytes[name + 13] = 2;
+    std::fs::write(&path, bytes).unwrap();
+    assert!(is_damaged(&probe(&path).unwrap().metadata));
+    assert!(is_damaged(&read(&path, &Limits::default()).unwrap().metadata));
+}
+
+/// A camera's setting, which is all that such files say (DCF 2.0).
+#[test]
+fn a_camera_s_adobe_rgb_is_read() {
+    let entry = |tag: u16, kind: u16, count: u32, value: [u8; 4]| {
+        [&tag.to_le_bytes()[..], &kind.to_le_bytes(), &count.to_le_bytes(), &value].concat()
+    };
+    let directory =
+        |entries: &[Vec<u8>]| [&(entries.len() as u16).to_le_bytes()[..], &entries.concat(), &[0; 4]].concat();
+    let own = directory(&[entry(0x8769, 4, 1, 26_u32.to_le_bytes())]);
+    let camera = directory(&[entry(0xa001, 3, 1, [0xff, 0xff, 0, 0]), entry(0xa005, 4, 1, 56_u32.to_le_bytes())]);
+    let interop = directory(&[entry(1, 2, 4, *b"R03\0")]);
+    let exif = [b"Exif\0\0II*\0\x08\0\0\0", &own[..], &camera, &interop].concat();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.jpg");
+    written(&path, &picture(8, 8, Channels::Rgb, Depth::Eight), &Metadata::default());
+    let bytes = std::fs::read(&path).unwrap();
+    let segment = [&[0xff, 0xe1][..], &(exif.len() as u16 + 2).to_be_bytes(), &exif].concat();
+    std::fs::write(&path, [&bytes[..2], &segment, &bytes[2..]].concat()).unwrap();
+    assert_eq!(probe(&path).unwrap().metadata.colour_space().as_deref(), Some("Adobe RGB (1998)"));
+}
+
+#[test]
+fn openexr_names_encoded_spaces_and_those_that_it_does_not_know() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.exr");
+    let image = patches(Depth::Half, Channels::Rgb, 4);
+    for (transfer, id) in [(Transfer::Srgb, "srgb_ap1_scene"), (Transfer::Gamma(2.2), "g22_ap1_scene")] {
+        written(&path, &image, &tagged(transfer.clone(), Primaries::AP1));
+        assert!(contains(&std::fs::read(&path).unwrap(), id.as_bytes()), "{id}");
+        assert_eq!(probe(&path).unwrap().metadata.transfer, Some(transfer));
+    }
+    written(&path, &image, &tagged(Transfer::Pq, Primaries::AP1));
+    assert!(!contains(&std::fs::read(&path).unwrap(), b"colorInteropID"), "no name for this");
+    written(&path, &image, &tagged(Transfer::Linear, Primaries::AP1));
+    let mut bytes = std::fs::read(&path).unwrap();
+    let id = bytes.windows(7).position(|window| window == b"lin_ap1").unwrap();
+    bytes[id..id + 3].copy_from_slice(b"odd");
+    std::fs::write(&path, bytes).unwrap();
+    let found = probe(&path).unwrap().metadata;
+    assert!(
+        found.complaints[0].contains("odd_ap1_scene, is not known here, and is left out"),
+        "{:?}",
+        found.complaints
+    );
+    assert_eq!(found.primaries, Some(Primaries::AP1));
 }
 
 #[test]

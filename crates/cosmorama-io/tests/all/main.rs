@@ -14,6 +14,7 @@ mod real_files;
 mod round_trips;
 
 mod contents {
+    mod attributes;
     mod layers;
     mod several;
 }

@@ -1,5 +1,5 @@
 use cosmorama_convert::contents;
-use cosmorama_io::{Header, NamedChannel, SampleKind};
+use cosmorama_io::{Header, Metadata, NamedChannel, SampleKind};
 use serde_json::{Map, Value, json};
 
 /// Name for channels outside of any layer.
@@ -21,11 +21,12 @@ pub(super) fn add_layers(report: &mut Value, header: &Header) {
     } else {
         report["picture"] = json!(layers.picture.join(", "));
     }
-    report["layers"] = by_layer(&all);
+    report["layers"] = by_layer(&all, &header.metadata);
     if !layers.parts.is_empty() {
         report["part"] = json!(layers.parts[layers.part].label(layers.part));
         let label = |(index, part): (usize, &cosmorama_io::FilePart)| {
-            let channels = if part.is_deep { json!("deep: not read") } else { by_layer(&part.channels) };
+            let channels =
+                if part.is_deep { json!("deep: not read") } else { by_layer(&part.channels, &header.metadata) };
             (part.label(index), channels)
         };
         report["parts"] = Value::Object(layers.parts.iter().enumerate().map(label).collect());
@@ -33,9 +34,9 @@ pub(super) fn add_layers(report: &mut Value, header: &Header) {
 }
 
 /// Returns channels by their layers.
-fn by_layer(channels: &[NamedChannel]) -> Value {
+fn by_layer(channels: &[NamedChannel], metadata: &Metadata) -> Value {
     let mut layers: Map<String, Value> = Map::new();
-    let held = contents(channels);
+    let held = contents(channels, metadata);
     for channel in channels {
         let (layer, name) = channel.name.rsplit_once('.').unwrap_or((NO_LAYER, &channel.name));
         let holds = held.iter().find(|(other, _)| other.name == channel.name).map_or("numbers", |(_, word)| word);

@@ -4,7 +4,10 @@ use std::collections::BTreeSet;
 
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
 use cosmorama::sphere::{Angle, CubeFace, Direction, Orientation};
-use cosmorama_io::{Choice, LayeredImage, Limits, Plane, PlaneSamples, WriteOptions, open, read_layers, write_layers};
+use cosmorama_io::{
+    Attribute, Choice, LayeredImage, Limits, Metadata, Plane, PlaneSamples, WriteOptions, open, read_layers,
+    write_layers,
+};
 
 use crate::bench::{Bench, assert_says, floats, text, word};
 
@@ -182,6 +185,154 @@ fn labels_are_taken_whole_and_belong_together() {
         let background = BTreeSet::from([[0, 0]]);
         assert!(tuples("out.exr").len() > 20 && tuples("out.exr").is_subset(&(&tuples("ids.exr") | &background)));
     }
+}
+
+/// Planes of these names that stand for one thing at each pixel.
+fn four(names: [&str; 4], number: impl Fn(usize, usize) -> f64) -> Vec<Plane> {
+    let planes = names.into_iter().enumerate();
+    planes.map(|(which, name)| plane(name, (0..64 * 32).map(|k| number(k, which)))).collect()
+}
+
+/// Writes channels without a picture, with attributes.
+fn save_with(bench: &Bench, name: &str, planes: Vec<Plane>, attributes: Vec<Attribute>) {
+    let metadata = Metadata { carried: std::sync::Arc::new(attributes.into()), ..Metadata::default() };
+    let layered = LayeredImage { size: (64, 32), picture: None, names: Vec::new(), planes };
+    write_layers(bench.path(name), layered, &WriteOptions::with_metadata(metadata)).unwrap();
+}
+
+/// The two ranks of a cryptomatte, known by its name or by its attribute.
+#[test]
+fn labels_alone_with_red_green_and_blue_are_no_picture() {
+    let bench = Bench::new();
+    let cell = |k: usize| (k % 64 / 5 * 31 + k / 64 / 4 * 977) as f64;
+    let turned = ["--from", "equirect", "--to", "fulldome:tilt=20", "--size", "50", "--yaw", "33", "-y"];
+    for matte in ["crypto_object", "UserObj"] {
+        let names = |rank: &str| ["R", "G", "B", "A"].map(|letter| format!("{matte}{rank}.{letter}"));
+        let (first, second) = (names("00"), names("01"));
+        let ranks = |k: usize, which: usize| if which % 2 == 0 { cell(k) * 7.0 + which as f64 } else { 0.5 };
+        let deeper = |k: usize, which: usize| 1e4 - ranks(k / 3 * 3, which);
+        let planes_in =
+            [four(first.each_ref().map(|name| &**name), ranks), four(second.each_ref().map(|name| &**name), deeper)];
+        let attribute = Attribute {
+            name: "cryptomatte/abc1234/name".to_owned(),
+            kind: "string".to_owned(),
+            bytes: matte.as_bytes().to_vec(),
+        };
+        save_with(&bench, "in.exr", planes_in.concat(), vec![attribute]);
+        assert!(bench.succeed(&["info", "in.exr"]).contains("R: float, labels"), "{matte}");
+        let tuples = |name: &str| -> BTreeSet<[u32; 4]> {
+            let channels = [&first[0], &first[2], &second[0], &second[2]].map(|name| &**name);
+            let found = planes(&bench, name, &channels);
+            (0..found[0].len()).map(|k| [0, 1, 2, 3].map(|channel| found[channel].bits(k))).collect()
+        };
+        let known = &tuples("in.exr") | &BTreeSet::from([[0; 4]]);
+        let only = format!("{matte}*");
+        for more in [&[][..], &["--labels", "vote"], &["--channels", &only]] {
+            bench.succeed(&[&["convert", "in.exr", "out.exr"], &turned[..], more].concat());
+            assert!(tuples("out.exr").len() > 20 && tuples("out.exr").is_subset(&known), "{matte} {more:?}");
+        }
+        let told = bench.fail(2, &[&["convert", "in.exr", "out.png"], &turned[..]].concat());
+        assert_says(&told, &["PNG files hold light", "of in.exr holds labels; write OpenEXR"]);
+    }
+}
+
+#[test]
+fn normals_and_depth_with_red_green_and_blue_are_no_picture() {
+    let bench = Bench::new();
+    let sphere = panorama_directions(64);
+    save_with(
+        &bench,
+        "n.exr",
+        four(["normal.R", "normal.G", "normal.B", "normal.A"], |k, c| sphere[k].get(c).map_or(1.0, |x| *x)),
+        Vec::new(),
+    );
+    bench.succeed(&[
+        "convert",
+        "n.exr",
+        "out.exr",
+        "--from",
+        "equirect",
+        "--to",
+        "fisheye",
+        "--size",
+        "20",
+        "--primaries",
+        "rec709",
+    ]);
+    let axes = ["normal.R", "normal.G", "normal.B"].map(|axis| numbers(&bench, "out.exr", axis));
+    let length = (0..3).map(|axis| axes[axis][10 * 20 + 10].powi(2)).sum::<f64>();
+    assert!((length - 1.0).abs() < 1e-3, "{length}");
+    let planar: Vec<f64> = face_directions(48).iter().map(|d| DISTANCE * -d[2]).collect();
+    for face in CubeFace::ALL {
+        let all = ["depth.R", "depth.G", "depth.B"].map(|name| plane(name, planar.iter().copied()));
+        save(&bench, &format!("{}.exr", word(face)), (48, 48), false, all.into());
+    }
+    bench.succeed(&["convert", "{face}.exr", "sky.exr", "--to", "equirect", "--size", "96"]);
+    assert!(numbers(&bench, "sky.exr", "depth.G").iter().all(|depth| (depth - DISTANCE).abs() < 1e-4 * DISTANCE));
+    save(&bench, "z.exr", (64, 32), true, vec![plane("Z", vec![3.0; 64 * 32])]);
+    let told =
+        bench.fail(2, &["convert", "z.exr", "z.tif", "--from", "equirect", "--to", "equirect", "--channels", "Z"]);
+    assert_says(&told, &["TIFF files hold light, but Z of z.exr holds depth"]);
+    let told = bench.fail(2, &["light", "diffuse", "n.exr", "l.hdr"]);
+    assert_says(&told, &["this needs light, but normal.R"]);
+}
+
+#[test]
+fn depth_of_nothing_stays_what_it_was() {
+    let bench = Bench::new();
+    for nothing in [1e10, 1e30, 65504.0] {
+        let far = |k: usize| if k % 64 < 32 { nothing } else { 5.0 };
+        save(&bench, "depth.exr", (64, 32), false, vec![plane("Z", (0..64 * 32).map(far))]);
+        for (to, size) in [("equirect", "50"), ("perspective:fov=90", "40")] {
+            let words = ["convert", "depth.exr", "out.exr", "-y", "--from", "equirect", "--to", to, "--size", size];
+            bench.succeed(&words);
+            let is_one = |depth: &f64| (3.0..5.001).contains(depth) || (depth / nothing - 1.0).abs() < 1e-5;
+            assert!(numbers(&bench, "out.exr", "Z").iter().all(is_one), "{nothing} {to}");
+        }
+    }
+}
+
+#[test]
+fn channels_end_where_the_picture_ends() {
+    let bench = Bench::new();
+    let planes_in = ["diffuse.R", "diffuse.G", "diffuse.B", "Z"].map(|name| plane(name, vec![5.0; 64 * 64]));
+    save(&bench, "front.exr", (64, 64), true, planes_in.into());
+    let from = ["convert", "front.exr", "out.exr", "--from", "perspective:fov=90", "--to", "equirect", "--size", "128"];
+    bench.succeed(&[&from[..], &["--missing", "transparent"]].concat());
+    let alpha = numbers(&bench, "out.exr", "A");
+    assert!(alpha.contains(&0.0) && alpha.contains(&1.0));
+    for name in ["diffuse.R", "Z"] {
+        let found = numbers(&bench, "out.exr", name);
+        assert!(found.iter().zip(&alpha).all(|(number, alpha)| *alpha > 0.0 || *number == 0.0), "{name}");
+    }
+}
+
+#[test]
+fn layers_of_light_beside_a_grey_picture_get_the_output_s_primaries() {
+    let bench = Bench::new();
+    let grey = EncodedImage::new(64, 32, Channels::Grey, Depth::Float, Samples::Float(vec![0.5; 64 * 32])).unwrap();
+    let metadata = Metadata { primaries: Some(cosmorama::raster::Primaries::AP1), ..Metadata::default() };
+    for (name, image) in [("grey.exr", &grey), ("colour.exr", &floats(64, 32, |_, _| [0.5; 3]))] {
+        let planes = [("d.R", 0.9), ("d.G", 0.1), ("d.B", 0.2)].map(|(name, value)| plane(name, vec![value; 64 * 32]));
+        let layered = LayeredImage { size: (64, 32), picture: Some(image), names: Vec::new(), planes: planes.into() };
+        write_layers(bench.path(name), layered, &WriteOptions::with_metadata(metadata.clone())).unwrap();
+        let to = ["--from", "equirect", "--to", "equirect", "--size", "32", "--primaries", "rec709"];
+        bench.succeed(&[&["convert", name, &format!("to_{name}")], &to[..]].concat());
+    }
+    let red = |name: &str| numbers(&bench, name, "d.R")[100];
+    assert!((red("to_grey.exr") - red("to_colour.exr")).abs() < 1e-6 && red("to_grey.exr") > 1.0);
+}
+
+#[test]
+fn a_channel_named_twice_is_refused() {
+    let bench = Bench::new();
+    save(&bench, "in.exr", (8, 4), true, vec![plane("Za", vec![1.0; 32]), plane("Zb", vec![2.0; 32])]);
+    let mut bytes = bench.bytes("in.exr");
+    let at = bytes.windows(3).position(|three| three == b"Zb\0").unwrap();
+    bytes[at + 1] = b'a';
+    std::fs::write(bench.path("in.exr"), bytes).unwrap();
+    let told = bench.fail(1, &["convert", "in.exr", "out.exr", "--from", "equirect", "--to", "fisheye"]);
+    assert_says(&told, &["in.exr", "two of its channels are called Za"]);
 }
 
 #[test]

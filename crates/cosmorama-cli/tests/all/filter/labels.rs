@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::bench::{Bench, eight_bits, flat, floats};
+use crate::bench::{Bench, eight_bits, flat, floats, text};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
 
 /// Labels of 16 bits, 40 of them, that lie far apart.
@@ -40,6 +40,33 @@ fn values_that_were_not_there_never_appear() {
 }
 
 #[test]
+fn codes_that_are_spread_are_told_of() {
+    let bench = Bench::new();
+    // 16 × 8 pixels of 4 bits: 5 and 10.
+    let file = b"\x89PNG\x0d\x0a\x1a\x0a\x00\x00\x00\x0dIHDR\x00\x00\x00\x10\x00\x00\x00\x08\x04\x00\x00\x00\x00\x10\xed\xcdJ\x00\x00\
+        \x00\x0eIDATx\xdac\x88\x82\x02\x06\xca\x18\x00*u\x16\x81\xc1\x5c\xeb^\x00\x00\x00\x00IEND\xaeB`\x82";
+    std::fs::write(bench.path("four.png"), file).unwrap();
+    let words = ["convert", "four.png", "out.png", "--from", "equirect", "--to", "fisheye", "--size", "8"];
+    let output = bench.run(&[&words[..], &["--labels", "nearest"]].concat());
+    assert!(text(&output.stderr).contains("the codes of four.png are of 4 bits"), "{}", text(&output.stderr));
+}
+
+/// A mean of labels over a shutter would be no label.
+#[test]
+fn labels_are_those_of_one_moment() {
+    let bench = Bench::new();
+    bench.save("ids.png", &labels());
+    let known = values(&labels());
+    let words = ["convert", "ids.png", "out_#.png", "--from", "equirect", "--to", "perspective:fov=60", "--size", "40"];
+    let moving = ["--labels", "vote", "--yaw", "0..90", "--frames", "1-3", "--shutter", "0.5"];
+    let output = bench.run(&[&words[..], &moving].concat());
+    assert!(text(&output.stderr).contains("--shutter has no effect"), "{}", text(&output.stderr));
+    for frame in 1..=3 {
+        assert!(values(&bench.load(&format!("out_{frame}.png"))).is_subset(&known));
+    }
+}
+
+#[test]
 fn what_would_change_values_is_refused() {
     let bench = Bench::new();
     bench.save("ids.png", &labels());
@@ -53,4 +80,5 @@ fn what_would_change_values_is_refused() {
     refused(&["ids.exr", "out.exr"], "ids.exr holds float samples; labels are integers of 8 or 16 bits");
     refused(&["ids.png", "out.png", "--out-transfer", "linear"], "encoded otherwise than ids.png");
     refused(&["ids.png", "out.png", "--filter", "point"], "--filter");
+    refused(&["ids.png", "out.exr"], "; write PNG or TIFF, which have as many");
 }

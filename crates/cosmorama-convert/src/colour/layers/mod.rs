@@ -8,5 +8,5 @@ pub use plan::LayerRules;
 pub use rules::contents;
 
 pub(crate) use plan::{LayerPlan, PictureNames};
-pub(crate) use resolve::check_choice;
+pub(crate) use resolve::{check_choice, check_light};
 pub(crate) use rules::{LayerContent, LayerGroup};

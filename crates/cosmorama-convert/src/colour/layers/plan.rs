@@ -4,7 +4,7 @@ use cosmorama::filter::LabelRule;
 use cosmorama::raster::{Channels, Rgba};
 use cosmorama_io::{Header, Layers, NamedChannel, SampleKind};
 
-use super::rules::{LayerContent, LayerGroup, grouped};
+use super::rules::{LayerContent, LayerGroup, grouped, mattes};
 use crate::settings::{DepthKind, NormalSpace};
 
 /// Channels that the output gets beside the picture's own.
@@ -117,7 +117,7 @@ impl LayerPlan {
         let mut left_out: Vec<String> = Vec::new();
         let mut carried = Vec::new();
         let own = &first.metadata.layers;
-        let is_data = is_data(own);
+        let is_data = data_in(first).is_some();
         for channel in all_channels(first) {
             // The picture's own channels are written with the picture.
             if own.picture.contains(&channel.name) && !is_data {
@@ -135,7 +135,7 @@ impl LayerPlan {
             }
         }
         let picture = if is_data { PictureNames::LeftOut } else { names(headers, channels) };
-        (Self { groups: grouped(&carried), picture, rules, room: 0 }, left_out)
+        (Self { groups: grouped(&carried, &mattes(&first.metadata)), picture, rules, room: 0 }, left_out)
     }
 }
 
@@ -152,12 +152,16 @@ fn all_channels(header: &Header) -> Vec<NamedChannel> {
     own.chain(layers.further.iter().cloned()).collect()
 }
 
-/// Returns whether a file has no picture of light: a single channel of other content, or channels that form no picture.
-fn is_data(layers: &Layers) -> bool {
-    let single = |name: &String| NamedChannel { name: name.clone(), kind: SampleKind::Float, is_full: true };
-    let only: Vec<NamedChannel> = layers.picture.iter().map(single).collect();
-    layers.no_picture.is_some()
-        || only.len() == 1 && !matches!(grouped(&only)[0].content, LayerContent::Numbers | LayerContent::Light)
+/// Returns the content of a file without a picture of light: of channels that form no picture, or of a picture's own
+/// channels that hold depth, normals or labels.
+pub(super) fn data_in(header: &Header) -> Option<LayerContent> {
+    let Layers { picture, no_picture, .. } = &header.metadata.layers;
+    if no_picture.is_some() {
+        return Some(LayerContent::Numbers);
+    }
+    let own: Vec<NamedChannel> = all_channels(header).into_iter().take(picture.len()).collect();
+    let mut contents = grouped(&own, &mattes(&header.metadata)).into_iter().map(|group| group.content);
+    contents.find(|content| !matches!(content, LayerContent::Numbers | LayerContent::Light))
 }
 
 /// Returns a channel in the finest of all files' sample types. `None` if some file lacks it, or if integers stand
@@ -210,7 +214,7 @@ mod tests {
     fn groups_are_read_together_as_far_as_there_is_room() {
         let channel = |name: &str| NamedChannel { name: name.to_owned(), kind: SampleKind::Float, is_full: true };
         let channels: Vec<_> = ["a.Z", "b.Z", "c.Z", "d.Z"].map(channel).into();
-        let plan = |room| LayerPlan { groups: grouped(&channels), room, ..LayerPlan::default() };
+        let plan = |room| LayerPlan { groups: grouped(&channels, &[]), room, ..LayerPlan::default() };
         let sizes = |room| plan(room).batches(10).iter().map(|batch| batch.len()).collect::<Vec<_>>();
         assert_eq!(sizes(1000), [4]);
         assert_eq!(sizes(80), [2, 2]);

@@ -4,9 +4,10 @@ use cosmorama::camera::View;
 use cosmorama::filter::{FilterKind, FilterSettings};
 use cosmorama_io::{Format, Header, Layers};
 
+use super::plan::data_in;
 use super::{LayerContent, LayerPlan, LayerRules};
 use crate::colour::Light;
-use crate::diagnostic::{CHANNELS, Code, DEPTH_KIND, Diagnostic, NORMALS, PART, Result, usage};
+use crate::diagnostic::{CHANNELS, Code, DEPTH_KIND, Diagnostic, NORMALS, PART, Result, usage, usage_as};
 use crate::input::Input;
 use crate::settings::{Conversion, LayerSettings};
 use crate::settings::{DepthKind, NormalSpace};
@@ -27,6 +28,7 @@ impl LayerPlan {
         let headers: Vec<&Header> = input.present().map(|(_, header, _)| header).collect();
         let LayerSettings { depth, normals, .. } = settings.layers;
         if target.format != Format::Exr {
+            check_light(input, &format!("{} files hold", target.format))?;
             told.extend(left_behind(target.format, &headers));
             told.extend(without_effect(settings, &Self::default()));
             return Ok(Self::default());
@@ -152,6 +154,21 @@ fn without_effect(settings: &Conversion, plan: &LayerPlan) -> Vec<Diagnostic> {
     ];
     let idle = given.into_iter().filter(|(is_given, content, _)| *is_given && plan.of(*content).is_empty());
     idle.map(|(_, _, told)| Diagnostic::warning(Code::NoEffect, format!("{told} go into the output"))).collect()
+}
+
+/// Checks that the picture is light, for outputs that hold nothing else.
+pub(crate) fn check_light(input: &Input, output: &str) -> Result<()> {
+    let first = input.frames.first().copied().flatten();
+    let data = input.present().find_map(|(view, header, _)| Some((view, header, data_in(header)?)));
+    data.map_or(Ok(()), |(view, header, content)| {
+        let message = format!(
+            "{output} light, but {} of {} holds {}; write OpenEXR, which keeps it, or choose light with {CHANNELS}",
+            listed(header.metadata.layers.picture.iter().map(String::as_str)),
+            view.files.path(first).display(),
+            content.word()
+        );
+        Err(usage_as(Code::OutputFormat, message))
+    })
 }
 
 /// Checks that files have the parts and channels that are chosen, and tells of files with parts that are not read.

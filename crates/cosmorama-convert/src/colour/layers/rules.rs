@@ -1,6 +1,6 @@
 //! Content of channels, by their names and types.
 
-use cosmorama_io::{NamedChannel, SampleKind};
+use cosmorama_io::{Metadata, NamedChannel, SampleKind};
 
 /// Channels that are filtered together by one rule.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -28,7 +28,7 @@ pub(crate) enum LayerContent {
 
 impl LayerContent {
     /// Returns the content in a word.
-    fn word(self) -> &'static str {
+    pub(super) fn word(self) -> &'static str {
         match self {
             Self::Light => "light",
             Self::Numbers => "numbers",
@@ -40,26 +40,35 @@ impl LayerContent {
 }
 
 /// Returns the content of each of some channels in a word, by their names and types: light, numbers, depth, normals or
-/// labels. All channels that belong together must be given at once.
-pub fn contents(channels: &[NamedChannel]) -> Vec<(NamedChannel, &'static str)> {
-    let groups = grouped(channels).into_iter();
+/// labels. All channels that belong together must be given at once, with the metadata of their file.
+pub fn contents(channels: &[NamedChannel], metadata: &Metadata) -> Vec<(NamedChannel, &'static str)> {
+    let groups = grouped(channels, &mattes(metadata)).into_iter();
     groups.flat_map(|group| group.channels.into_iter().map(move |channel| (channel, group.content.word()))).collect()
 }
 
 /// Most channels that are filtered at once: the fourth number of a pixel is the part of it that is covered.
 const AT_ONCE: usize = 3;
 
-/// Sorts channels into groups, in their order.
-pub(crate) fn grouped(channels: &[NamedChannel]) -> Vec<LayerGroup> {
+/// Returns the names that a file's attributes give its cryptomattes, whose layers are called `NAME00`, `NAME01`, and so on
+/// (Friedman, "Cryptomatte Specification" 1.2.0).
+pub(super) fn mattes(metadata: &Metadata) -> Vec<String> {
+    let names = metadata.carried.attributes.iter().filter(|attribute| {
+        attribute.name.starts_with("cryptomatte/") && attribute.name.ends_with("/name") && attribute.kind == "string"
+    });
+    names.map(cosmorama_io::Attribute::value).collect()
+}
+
+/// Sorts channels into groups, in their order. `mattes` are the names of cryptomattes that names alone do not tell.
+pub(crate) fn grouped(channels: &[NamedChannel], mattes: &[String]) -> Vec<LayerGroup> {
     let mut groups = Vec::new();
     let mut numbers: Vec<NamedChannel> = Vec::new();
     let mut layers: Vec<&str> = Vec::new();
     for channel in channels {
-        let layer = layer_of(&channel.name);
+        let layer = stem(&channel.name, mattes);
         if !layers.contains(&layer) {
             layers.push(layer);
-            let of_layer = channels.iter().filter(|channel| layer_of(&channel.name) == layer).collect();
-            sort(layer, of_layer, &mut groups, &mut numbers);
+            let of_layer = channels.iter().filter(|channel| stem(&channel.name, mattes) == layer).collect();
+            sort((layer, mattes), of_layer, &mut groups, &mut numbers);
         }
     }
     groups.extend(numbers.chunks(AT_ONCE).map(|some| group(some.iter(), LayerContent::Numbers)));
@@ -67,9 +76,14 @@ pub(crate) fn grouped(channels: &[NamedChannel]) -> Vec<LayerGroup> {
 }
 
 /// Sorts the channels of one layer into groups. Channels without a rule of their own go to `numbers`.
-fn sort(layer: &str, channels: Vec<&NamedChannel>, groups: &mut Vec<LayerGroup>, numbers: &mut Vec<NamedChannel>) {
-    let last = last_word(layer);
-    let names_labels = is_cryptomatte(last) || is_identifier(last);
+fn sort(
+    (layer, mattes): (&str, &[String]),
+    channels: Vec<&NamedChannel>,
+    groups: &mut Vec<LayerGroup>,
+    numbers: &mut Vec<NamedChannel>,
+) {
+    let last = base(layer);
+    let names_labels = is_cryptomatte(layer, mattes) || is_identifier(last);
     let is_label =
         |channel: &NamedChannel| names_labels || channel.kind == SampleKind::Uint || is_identifier(base(&channel.name));
     let (labels, mut rest): (Vec<_>, Vec<_>) = channels.into_iter().partition(|channel| is_label(channel));
@@ -126,12 +140,15 @@ fn base(name: &str) -> &str {
     name.rsplit('.').next().unwrap_or(name)
 }
 
-fn last_word(layer: &str) -> &str {
-    base(layer)
+/// Returns the layer of a channel; the layers of a cryptomatte, which rank what one pixel sees, are one.
+fn stem<'a>(name: &'a str, mattes: &[String]) -> &'a str {
+    let layer = layer_of(name);
+    let unnumbered = layer.trim_end_matches(|c: char| c.is_ascii_digit());
+    if is_cryptomatte(unnumbered, mattes) { unnumbered } else { layer }
 }
 
-fn is_cryptomatte(word: &str) -> bool {
-    word.to_lowercase().contains("crypto")
+fn is_cryptomatte(layer: &str, mattes: &[String]) -> bool {
+    base(layer).to_lowercase().contains("crypto") || mattes.iter().any(|matte| matte == layer)
 }
 
 /// Returns whether a word names a normal, as renderers do: N, Normal, normals, WorldNormal, shading_normal, Nn, Ng, Ns.
@@ -172,7 +189,7 @@ mod tests {
             let names: Vec<_> = group.channels.into_iter().map(|channel| channel.name).collect();
             (group.content, names.join(" "))
         };
-        grouped(&channels).into_iter().map(told).collect()
+        grouped(&channels, &["UserObj".to_owned()]).into_iter().map(told).collect()
     }
 
     #[test]
@@ -237,6 +254,15 @@ mod tests {
                 group(Labels, "crypto_object00.A crypto_object00.R"),
                 group(Normal, "normals.r normals.g normals.b"),
                 group(Numbers, "solid"),
+            ]
+        );
+        // Ranks of one cryptomatte; the second is known by its attribute alone.
+        assert_eq!(
+            sorted(&["crypto00.R", "crypto01.R", "UserObj00.R", "UserObj01.R", "UserObj.R", "User00.R"]),
+            [
+                group(Labels, "crypto00.R crypto01.R"),
+                group(Labels, "UserObj00.R UserObj01.R UserObj.R"),
+                group(Numbers, "User00.R"),
             ]
         );
     }

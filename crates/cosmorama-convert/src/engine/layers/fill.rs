@@ -1,5 +1,5 @@
 use cosmorama::camera::View;
-use cosmorama::raster::Rgba;
+use cosmorama::raster::{Channels, Rgba};
 use cosmorama::sphere::Orientation;
 use cosmorama::world::World;
 use rayon::prelude::*;
@@ -31,7 +31,8 @@ pub(super) fn fill(job: &ConvertJob, content: LayerContent, views: &[ViewPlanes<
             let Some(((_, header, _), planes)) = present.next() else { return };
             let rules = job.layers.rules;
             let in_camera = content == LayerContent::Normal && rules.normals == NormalSpace::Camera;
-            let colours = job.light.colours(header.channels, header.depth, &header.metadata);
+            // Layers are coloured beside a grey picture, too.
+            let colours = job.light.colours(Channels::Rgb, header.depth, &header.metadata);
             let reading = Reading {
                 content,
                 view: &source.view,
@@ -95,12 +96,16 @@ fn tame(number: f32) -> f32 {
     }
 }
 
-/// Returns a texel's distance, whether it counts, whether there is nothing up to infinity, and 1, since every texel is
-/// seen.
+/// Least number by which renderers say that there is nothing: Blender's is 1e10, Arnold's 1e30.
+const NOTHING: f32 = 1e9;
+
+/// Returns a texel's distance, whether it counts, what stands for nothing (1 for infinity, else the number), and 1, since
+/// every texel is seen.
 fn distance(number: f32) -> Rgba {
-    if number.is_finite() {
-        Rgba([number, 1.0, 0.0, 1.0])
-    } else {
-        Rgba([0.0, 0.0, if number == f32::INFINITY { 1.0 } else { 0.0 }, 1.0])
+    match number {
+        f32::INFINITY => Rgba([0.0, 0.0, 1.0, 1.0]),
+        _ if !number.is_finite() => Rgba([0.0, 0.0, 0.0, 1.0]),
+        _ if number >= NOTHING || number == LARGEST => Rgba([0.0, 0.0, number, 1.0]),
+        _ => Rgba([number, 1.0, 0.0, 1.0]),
     }
 }

@@ -12,9 +12,9 @@ pub(super) fn finish((content, rules): (LayerContent, LayerRules), view: &View, 
     match content {
         LayerContent::Depth => {
             image.pixels_mut().par_chunks_mut(width).enumerate().for_each(|(j, row)| {
-                row.iter_mut().for_each(|pixel| pixel.0[0] = distance(*pixel));
+                row.iter_mut().for_each(|pixel| *pixel = distance(*pixel));
                 if view.is_flat() {
-                    view.row_planar_depths(j, |i, share| row[i].0[0] *= share);
+                    view.row_planar_depths(j, |i, share| row[i].0[0] *= if is_far(row[i]) { 1.0 } else { share });
                 }
             });
         }
@@ -31,16 +31,25 @@ pub(super) fn finish((content, rules): (LayerContent, LayerRules), view: &View, 
     }
 }
 
-/// Returns the mean of the distances that count, if they are at least half of what a pixel sees; otherwise infinity, if
-/// some of what it sees is infinite. Outside of the lens it is 0.
-fn distance(Rgba([sum, counted, far, seen]): Rgba) -> f32 {
+/// Least mean of the numbers that stand for nothing, where these are numbers. Infinity is counted as 1.
+const NUMBER: f32 = 16384.0;
+
+/// Returns the mean of the distances that count, if they are at least half of what a pixel sees; otherwise what stands for
+/// nothing, if it sees some of that. Outside of the lens it is 0.
+fn distance(Rgba([sum, counted, far, seen]): Rgba) -> Rgba {
     if counted > 0.0 && (far <= 0.0 || counted >= 0.5 * seen) {
-        sum / counted
+        Rgba([sum / counted, 0.0, 0.0, 1.0])
     } else if far > 0.0 {
-        f32::INFINITY
+        let number = far / (seen - counted);
+        Rgba([if number < NUMBER { f32::INFINITY } else { number }, 0.0, 1.0, 1.0])
     } else {
-        0.0
+        Rgba::TRANSPARENT
     }
+}
+
+/// Returns whether a pixel sees nothing up to infinity.
+fn is_far(Rgba([_, _, far, _]): Rgba) -> bool {
+    far > 0.0
 }
 
 #[cfg(test)]
@@ -49,10 +58,12 @@ mod tests {
 
     #[test]
     fn what_has_no_distance_does_not_count() {
-        assert_eq!(distance(Rgba([6.0, 0.75, 0.25, 1.0])), 8.0);
-        assert_eq!(distance(Rgba([2.0, 0.25, 0.75, 1.0])), f32::INFINITY);
-        assert_eq!(distance(Rgba([2.0, 0.25, 0.0, 1.0])), 8.0, "beside NaN");
-        assert_eq!(distance(Rgba([4.0, 0.5, 0.0, 0.5])), 8.0, "at the rim of a lens");
-        assert_eq!(distance(Rgba::TRANSPARENT), 0.0);
+        let distance = |pixel| distance(Rgba(pixel)).0[0];
+        assert_eq!(distance([6.0, 0.75, 0.25, 1.0]), 8.0);
+        assert_eq!(distance([2.0, 0.25, 0.75, 1.0]), f32::INFINITY);
+        assert_eq!(distance([2.0, 0.25, 0.75e10, 1.0]), 1e10, "as the renderer wrote it");
+        assert_eq!(distance([2.0, 0.25, 0.0, 1.0]), 8.0, "beside NaN");
+        assert_eq!(distance([4.0, 0.5, 0.0, 0.5]), 8.0, "at the rim of a lens");
+        assert_eq!(distance([0.0; 4]), 0.0);
     }
 }

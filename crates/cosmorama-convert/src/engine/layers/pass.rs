@@ -12,6 +12,7 @@ use crate::colour::{LayerContent, LayerGroup};
 use crate::diagnostic::{ConvertError, Result, bail};
 use crate::engine::Shares;
 use crate::engine::{BalancedLight, FrameFile, Posed, Which};
+use crate::job::coverage::Coverage;
 use crate::job::{ConvertJob, FrameOutputs};
 use crate::packing::Place;
 use crate::source::read_further;
@@ -105,6 +106,9 @@ impl LayerPass<'_> {
         for &(index, (left, top)) in &sheet.pieces {
             let mut image = self.render(index, texels, shares)?;
             let target = &self.posed.views[index];
+            if let Coverage::Fill(_) = self.job.coverage {
+                self.posed.mask(self.job, index).fill_unseen(&mut image, Rgba::TRANSPARENT);
+            }
             finish((texels.group.content, self.job.layers.rules), &target.view, &mut image);
             if let (LayerContent::Light, Some(output)) = (texels.group.content, &output) {
                 output.convert_all(image.pixels_mut(), Threads::All);

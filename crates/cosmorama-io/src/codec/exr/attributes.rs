@@ -3,9 +3,7 @@
 use std::io::{self, Read};
 use std::path::Path;
 
-use exr::math::Vec2;
-use exr::meta::attribute::{AttributeValue, KeyCode, Text, TimeCode};
-use exr::meta::header::{LayerAttributes, standard_names};
+use exr::meta::attribute::{AttributeValue, Text};
 
 use super::reader::MARK;
 use crate::codec::interface::Source;
@@ -102,45 +100,12 @@ fn name(source: Source<'_>) -> io::Result<Option<String>> {
     Ok((name.pop() == Some(0)).then(|| name.into_iter().map(char::from).collect()))
 }
 
-/// Adds the attributes to write. The encoder has fields of its own for standard attributes, and refuses these under
-/// other types.
-pub(super) fn add(carried: &Carried, own: &mut LayerAttributes, time_code: &mut Option<TimeCode>) {
-    for Attribute { name, kind, bytes } in &carried.attributes {
-        let text = || Some(Text::from_slice_unchecked(bytes)).filter(|_| kind == "string");
-        let numbers = || bytes.chunks_exact(4).filter_map(|four| Some(u32::from_le_bytes(*four.first_chunk()?)));
-        let float = || numbers().next().map(f32::from_bits).filter(|_| kind == "float");
-        let pair = || Some((numbers().next()?, numbers().nth(1)?));
-        let matrix = || numbers().map(f32::from_bits).collect::<Vec<_>>().first_chunk().copied();
-        match &**name {
-            "owner" => own.owner = text(),
-            "comments" => own.comments = text(),
-            "capDate" => own.capture_date = text(),
-            "renderingTransform" => own.rendering_transform_name = text(),
-            "lookModTransform" => own.look_modification_transform_name = text(),
-            "xDensity" => own.horizontal_density = float(),
-            "utcOffset" => own.utc_offset = float(),
-            "longitude" => own.longitude = float(),
-            "latitude" => own.latitude = float(),
-            "altitude" => own.altitude = float(),
-            "focus" => own.focus = float(),
-            "expTime" => own.exposure = float(),
-            "aperture" => own.aperture = float(),
-            "isoSpeed" => own.iso_speed = float(),
-            "adoptedNeutral" => {
-                own.adopted_neutral = pair().map(|(x, y)| Vec2(f32::from_bits(x), f32::from_bits(y)));
-            }
-            "framesPerSecond" => own.frames_per_second = pair().map(|(over, under)| (over.cast_signed(), under)),
-            "worldToCamera" => own.world_to_camera = matrix(),
-            "worldToNDC" => own.world_to_normalized_device = matrix(),
-            "keyCode" => own.film_key_code = KeyCode::read(&mut &bytes[..]).ok(),
-            "timeCode" => *time_code = TimeCode::read(&mut &bytes[..]).ok(),
-            // Standard attributes without a field of their own describe the file, and the encoder writes its own.
-            _ if standard_names::ALL.contains(&name.as_bytes()) => {}
-            _ => {
-                let value =
-                    Text::new_or_none(kind).map(|kind| AttributeValue::Custom { kind, bytes: bytes.as_slice().into() });
-                own.other.extend(Text::new_or_none(name).zip(value));
-            }
-        }
-    }
+/// Returns the attributes to write, byte by byte. The encoder's own fields for standard attributes would change some: exr
+/// 1.74 leaves a number of `keyCode` out, and refuses time codes of more than 30 frames a second.
+pub(super) fn stored(carried: &Carried) -> impl Iterator<Item = (Text, AttributeValue)> {
+    let kept = carried.attributes.iter().filter(|attribute| !attribute.is_storage() && attribute.name != "envmap");
+    kept.filter_map(|Attribute { name, kind, bytes }| {
+        let kind = Text::new_or_none(kind)?;
+        Some((Text::new_or_none(name)?, AttributeValue::Custom { kind, bytes: bytes.as_slice().into() }))
+    })
 }

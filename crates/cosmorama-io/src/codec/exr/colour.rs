@@ -1,6 +1,6 @@
 //! Attributes about colour.
 
-use cosmorama::raster::Primaries;
+use cosmorama::raster::{Primaries, Transfer};
 use exr::math::Vec2;
 use exr::meta::attribute::{AttributeValue, Chromaticities, Text};
 use exr::meta::header::Header as Part;
@@ -10,14 +10,21 @@ use crate::Metadata;
 /// Name of the attribute of OpenEXR 3.4 that names a colour space.
 const INTEROP_ID: &str = "colorInteropID";
 
-/// Names of linear spaces by the Color Interop Forum, "Color Space Encodings for Texture Assets and CG Rendering".
-const INTEROP_IDS: [(&str, Primaries); 6] = [
-    ("lin_rec709_scene", Primaries::REC709),
-    ("lin_p3d65_scene", Primaries::P3_D65),
-    ("lin_rec2020_scene", Primaries::REC2020),
-    ("lin_adobergb_scene", Primaries::ADOBE_RGB),
-    ("lin_ap1_scene", Primaries::AP1),
-    ("lin_ap0_scene", Primaries::AP0),
+/// Names of spaces by the Color Interop Forum, "Color Space Encodings for Texture Assets and CG Rendering".
+const INTEROP_IDS: [(&str, Primaries, Transfer); 13] = [
+    ("lin_rec709_scene", Primaries::REC709, Transfer::Linear),
+    ("lin_p3d65_scene", Primaries::P3_D65, Transfer::Linear),
+    ("lin_rec2020_scene", Primaries::REC2020, Transfer::Linear),
+    ("lin_adobergb_scene", Primaries::ADOBE_RGB, Transfer::Linear),
+    ("lin_ap1_scene", Primaries::AP1, Transfer::Linear),
+    ("lin_ap0_scene", Primaries::AP0, Transfer::Linear),
+    ("srgb_rec709_scene", Primaries::REC709, Transfer::Srgb),
+    ("srgb_p3d65_scene", Primaries::P3_D65, Transfer::Srgb),
+    ("srgb_ap1_scene", Primaries::AP1, Transfer::Srgb),
+    ("g22_rec709_scene", Primaries::REC709, Transfer::Gamma(2.2)),
+    ("g22_adobergb_scene", Primaries::ADOBE_RGB, Transfer::Gamma(2.2)),
+    ("g22_ap1_scene", Primaries::AP1, Transfer::Gamma(2.2)),
+    ("g18_rec709_scene", Primaries::REC709, Transfer::Gamma(1.8)),
 ];
 
 /// Adds what a part says of its colours. `chromaticities` takes precedence over `colorInteropID`, since it holds
@@ -39,17 +46,23 @@ pub(super) fn read(part: &Part, mut metadata: Metadata) -> Metadata {
         AttributeValue::Text(text) => Some(text.to_string()),
         _ => None,
     });
-    let named = id.as_ref().map(|id| INTEROP_IDS.iter().find(|(known, _)| known == id).map(|(_, named)| *named));
-    match (id, named, primaries) {
-        (Some(id), Some(Some(named)), Some(primaries)) if !named.is_same(&primaries) => {
-            metadata.complaints.push(format!(
-                "its chromaticities say {primaries} and its {INTEROP_ID} {id}; chromaticities come first"
-            ));
+    metadata.primaries = primaries;
+    let Some(id) = id else { return metadata };
+    match (INTEROP_IDS.into_iter().find(|(known, ..)| *known == id), primaries) {
+        (Some((_, named, transfer)), said) => {
+            if let Some(primaries) = said.filter(|said| !named.is_same(said)) {
+                metadata.complaints.push(format!(
+                    "its chromaticities say {primaries} and its {INTEROP_ID} {id}; chromaticities come first"
+                ));
+            }
+            metadata.primaries = said.or(Some(named));
+            metadata.transfer = Some(transfer);
         }
-        (Some(id), Some(None), _) => metadata.notes.push(format!("its {INTEROP_ID}, {id}, is not known here")),
-        _ => {}
+        (None, said) => metadata.complaints.push(format!(
+            "its {INTEROP_ID}, {id}, is not known here, and is left out: its values are taken for linear {}",
+            said.unwrap_or(Primaries::REC709)
+        )),
     }
-    metadata.primaries = primaries.or(named.flatten());
     metadata
 }
 
@@ -65,7 +78,13 @@ pub(super) fn chromaticities(primaries: &Primaries) -> Chromaticities {
 
 /// Returns the attribute that names the colour space, if it has such a name.
 pub(super) fn interop_id(metadata: &Metadata) -> Option<(Text, AttributeValue)> {
-    let primaries = metadata.primaries?;
-    let (id, _) = INTEROP_IDS.iter().find(|(_, known)| known.is_same(&primaries))?;
-    Some((Text::from(INTEROP_ID), AttributeValue::Text(Text::from(*id))))
+    let primaries = metadata.primaries.unwrap_or(Primaries::REC709);
+    let transfer = metadata.transfer.as_ref().unwrap_or(&Transfer::Linear);
+    // Linear Rec. 709 needs no name.
+    if metadata.primaries.is_none() && *transfer == Transfer::Linear {
+        return None;
+    }
+    let is_this = |(_, known, curve): &(&str, Primaries, Transfer)| known.is_same(&primaries) && curve == transfer;
+    let (id, ..) = INTEROP_IDS.into_iter().find(is_this)?;
+    Some((Text::from(INTEROP_ID), AttributeValue::Text(Text::from(id))))
 }

@@ -45,7 +45,7 @@ impl<'a> Offer<'a> {
         let missing = choice.channels.iter().find(|pattern| offers.iter().all(|offer| lacks(offer, pattern)));
         Err(IoError::NoSuchChannel {
             path: path.to_owned(),
-            asked: missing.map_or_else(|| choice.channels.join(", "), Clone::clone),
+            asked: missing.map_or_else(|| format!("{} in one part", choice.channels.join(", ")), Clone::clone),
             existing: offers.iter().flat_map(Self::names).collect::<Vec<_>>().join(", "),
         })
     }

@@ -175,7 +175,15 @@ pub(super) fn block_bytes(part: &Part) -> u128 {
 
 pub(super) fn open<'a>(path: &Path, source: Source<'a>) -> Result<Reader<Source<'a>>, IoError> {
     let strictly = has_wrong_count(source).map_err(|error| IoError::open(path, error))?;
-    exr::block::read(source, strictly).map_err(|error| damaged(path, error))
+    let reader = exr::block::read(source, strictly).map_err(|error| damaged(path, error))?;
+    // Channels are sorted by name.
+    let pairs = reader.headers().iter().flat_map(|part| part.channels.list.windows(2));
+    match pairs.into_iter().find(|pair| pair[0].name == pair[1].name) {
+        Some(pair) => {
+            Err(IoError::damaged(path, FORMAT, format_args!("two of its channels are called {}", pair[0].name)))
+        }
+        None => Ok(reader),
+    }
 }
 
 /// Returns whether a file of one part is refused only for its `chunkCount`. That number is then ignored, as in

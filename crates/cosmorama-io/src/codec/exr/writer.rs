@@ -161,15 +161,14 @@ fn save<S: for<'s> WritableSamples<'s> + 'static>(
         other: colour::interop_id(&options.metadata).into_iter().collect(),
         ..LayerAttributes::default()
     };
-    let mut time_code = None;
-    attributes::add(&options.metadata.carried, &mut own, &mut time_code);
+    own.other.extend(attributes::stored(&options.metadata.carried));
     let remarks = options.metadata.remarks.iter();
     own.other.extend(remarks.map(|remark| (Text::from(remark.name), AttributeValue::Text(Text::from(&*remark.text)))));
     let layer = Layer::new(size, own, encoding, AnyChannels::sort(list));
     let mut picture = Image::from_layer(layer);
-    picture.attributes.time_code = time_code;
     picture.attributes.chromaticities = options.metadata.primaries.as_ref().map(colour::chromaticities);
-    let writer = picture.write();
+    // The encoder's checks refuse standard attributes that it has not made itself.
+    let writer = picture.write().skip_compatibility_checks();
     // The encoder has threads of its own. They are used if this thread works alone and there are several cores.
     let written = if rayon::current_num_threads() > 1 && !is_beside_others() {
         writer.to_buffered(output)

@@ -11,6 +11,8 @@ const APPLICATION_2: u8 = 0xe2;
 
 /// Beginning of the segment that lists further pictures of a file (CIPA DC-007).
 const INDEX: &[u8] = b"MPF\0";
+/// Beginning of the segments that hold an ICC profile (ICC.1, B.4).
+const PROFILE: &[u8] = b"ICC_PROFILE\0";
 /// Tag of that list's length.
 const NUMBER_OF_IMAGES: u16 = 0xb001;
 
@@ -77,6 +79,8 @@ impl<'a> Iterator for Marks<'a> {
 pub(super) struct Beside {
     /// Number of further pictures that are listed, such as previews and gain maps of cameras.
     pub(super) pictures: u32,
+    /// Whether there is an ICC profile, or a part of one.
+    pub(super) has_profile: bool,
     /// Whether there is a comment.
     pub(super) has_comment: bool,
 }
@@ -106,6 +110,7 @@ fn look_beside(source: &mut (impl BufRead + Seek + ?Sized), beside: &mut Beside)
         }
         let mut segment = vec![0; length];
         source.read_exact(&mut segment)?;
+        beside.has_profile |= segment.starts_with(PROFILE);
         if let Some(list) = segment.strip_prefix(INDEX) {
             beside.pictures = number_of_images(list).unwrap_or(1).saturating_sub(1);
         }

@@ -4,7 +4,7 @@ use std::io::Cursor;
 use std::path::Path;
 use std::sync::Arc;
 
-use cosmorama::raster::{Channels, Depth, EncodedImage, FramePool, Samples};
+use cosmorama::raster::{Channels, Depth, EncodedImage, FramePool, Primaries, Samples, Transfer};
 use image::codecs::jpeg::JpegEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 use zune_jpeg::JpegDecoder;
@@ -12,8 +12,9 @@ use zune_jpeg::zune_core::bytestream::{ZByteReaderTrait, ZCursor};
 use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
+use self::marks::Beside;
 use crate::codec::interface::{Codec, Sink, Source, whole_image};
-use crate::metadata::{gpano, orientation};
+use crate::metadata::{ADOBE_GAMMA, gpano, iptc, orientation};
 use crate::{Carried, Exif, Format, Header, ImageFile, IoError, Limits, Metadata, WriteOptions};
 
 const FORMAT: Format = Format::Jpeg;
@@ -30,7 +31,7 @@ impl Codec for Jpeg {
         let beside = marks::beside(source);
         source.rewind().map_err(|error| IoError::open(path, error))?;
         let mut decoder = decoder(path, source)?;
-        let mut header = header(path, &mut decoder)?;
+        let mut header = header(path, &mut decoder, beside)?;
         header.metadata.notes.extend(unread(beside.pictures));
         if beside.has_comment {
             Arc::make_mut(&mut header.metadata.carried).unread.push("a comment (COM)");
@@ -41,13 +42,13 @@ impl Codec for Jpeg {
     fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
         let bytes = whole(path, source)?;
         let mut decoder = decoder(path, ZCursor::new(&bytes))?;
-        let header = header(path, &mut decoder)?;
+        let beside = marks::beside(&mut Cursor::new(&bytes));
+        let header = header(path, &mut decoder, beside)?;
         if marks::end(&bytes).is_none() {
             return Err(IoError::damaged(path, FORMAT, "it ends too early"));
         }
         // Pictures that a file lists are previews and the like. Only unlisted ones are further pictures.
-        let listed = marks::beside(&mut Cursor::new(&bytes)).pictures;
-        let count = if listed == 0 { marks::count_alike(&bytes) } else { 1 };
+        let count = if beside.pictures == 0 { marks::count_alike(&bytes) } else { 1 };
         if count > 1 {
             return Err(IoError::several(path, FORMAT, count, "pictures one behind the other"));
         }
@@ -104,9 +105,7 @@ fn metadata<T: ZByteReaderTrait>(decoder: &JpegDecoder<T>, size: (usize, usize))
     let exif = decoder.exif().and_then(|block| carried.add_exif(block).err()).map(|reason| ("Exif", reason));
     let xmp = decoder.xmp().and_then(|packet| carried.add_xmp(packet).err()).map(|reason| ("XMP", reason));
     let left_out = |(kind, reason)| format!("its {kind} metadata are left out: {reason}");
-    if decoder.iptc().is_some() {
-        carried.unread.push("IPTC");
-    }
+    carried.unread.extend(decoder.iptc().map(|block| iptc::kind(block)));
     let orientation = carried.exif.as_ref().and_then(Exif::orientation);
     let size = orientation::turned(size, orientation);
     let said = decoder.xmp().map(|packet| gpano::parse(packet, size)).unwrap_or_default();
@@ -179,7 +178,7 @@ fn reason(error: &zune_jpeg::errors::DecodeErrors) -> String {
     text.lines().next().unwrap_or_default().trim().to_owned()
 }
 
-fn header<T: ZByteReaderTrait>(path: &Path, decoder: &mut JpegDecoder<T>) -> Result<Header, IoError> {
+fn header<T: ZByteReaderTrait>(path: &Path, decoder: &mut JpegDecoder<T>, beside: Beside) -> Result<Header, IoError> {
     let (Some((width, height)), Some(colour)) = (decoder.dimensions(), decoder.input_colorspace()) else {
         return Err(IoError::damaged(path, FORMAT, "it has no size"));
     };
@@ -188,7 +187,13 @@ fn header<T: ZByteReaderTrait>(path: &Path, decoder: &mut JpegDecoder<T>) -> Res
         ColorSpace::RGB | ColorSpace::YCbCr => Channels::Rgb,
         other => return Err(IoError::unsupported(path, FORMAT, format_args!("{other:?} colours"), "grey or RGB")),
     };
-    let profile = decoder.icc_profile();
-    let metadata = metadata(decoder, (width, height)).with_profile(profile);
+    let own = metadata(decoder, (width, height));
+    let metadata = match decoder.icc_profile() {
+        None if beside.has_profile => own.with_damaged_profile("a part of it is missing or there twice"),
+        None if own.carried.exif.as_ref().is_some_and(Exif::is_adobe_rgb) => {
+            Metadata { primaries: Some(Primaries::ADOBE_RGB), transfer: Some(Transfer::Gamma(ADOBE_GAMMA)), ..own }
+        }
+        profile => own.with_profile(profile),
+    };
     Ok(Header { format: FORMAT, width, height, channels, depth: Depth::Eight, metadata, window: None })
 }

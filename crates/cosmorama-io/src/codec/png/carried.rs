@@ -19,6 +19,8 @@ pub(super) struct Found {
     /// XMP packet as it is stored.
     pub(super) packet: Option<String>,
     pub(super) complaints: Vec<String>,
+    /// Whether there is an ICC profile before the pixels, which the decoder drops in silence where it is damaged.
+    pub(super) has_profile: bool,
 }
 
 /// Chunks that are never carried, with what to call them. Both speak of a whole film on the display of its makers.
@@ -27,7 +29,7 @@ const UNREAD: [(&[u8; 4], &str); 2] =
 
 /// Reads the chunks, and goes back to the beginning. Damage is left for the decoder to report.
 pub(super) fn read(source: Source<'_>) -> io::Result<Found> {
-    let mut found = Found::default();
+    let (mut found, mut is_behind) = (Found::default(), false);
     source.seek(SeekFrom::Start(MARK.len() as u64))?;
     while let Ok([a, b, c, d, kind @ ..]) = <[u8; 8]>::try_from(next_bytes(source, 8)?) {
         let length = u32::from_be_bytes([a, b, c, d]);
@@ -50,8 +52,11 @@ pub(super) fn read(source: Source<'_>) -> io::Result<Found> {
         } else {
             source.seek_relative(i64::from(length) + 4)?;
         }
-        if &kind == b"IEND" {
-            break;
+        match &kind {
+            b"iCCP" => found.has_profile = !is_behind,
+            b"IDAT" => is_behind = true,
+            b"IEND" => break,
+            _ => {}
         }
     }
     source.rewind()?;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use cosmorama::raster::{Primaries, Transfer};
 use png::chunk::ChunkType;
-use png::{CodingIndependentCodePoints, Info, ScaledFloat, SourceChromaticities, SrgbRenderingIntent};
+use png::{CodingIndependentCodePoints, ColorType, Info, ScaledFloat, SourceChromaticities, SrgbRenderingIntent};
 
 use super::carried::Found;
 use crate::metadata::{colour_name, gpano, icc, orientation};
@@ -14,7 +14,7 @@ pub(super) const CICP: ChunkType = ChunkType(*b"cICP");
 
 /// Reads the chunks; by the specification the order of precedence is cICP, iCCP, sRGB, gAMA with cHRM.
 pub(super) fn metadata(info: &Info<'_>, found: Found) -> Metadata {
-    let Found { carried, packet, complaints } = found;
+    let Found { carried, packet, complaints, has_profile } = found;
     let software = carried.texts.iter().find(|text| text.keyword() == "Software").and_then(TextChunk::text);
     let orientation = carried.exif.as_ref().and_then(Exif::orientation);
     let size = orientation::turned((info.width as usize, info.height as usize), orientation);
@@ -26,32 +26,43 @@ pub(super) fn metadata(info: &Info<'_>, found: Found) -> Metadata {
         software,
         orientation,
         carried: Arc::new(carried),
+        rescaled: rescaled(info),
         ..Metadata::default()
     };
-    colour(info, other)
+    colour(info, other, has_profile && info.icc_profile.is_none())
 }
 
 /// Adds the colours that the chunk of highest precedence gives, and complains of chunks that contradict it.
-fn colour(info: &Info<'_>, mut metadata: Metadata) -> Metadata {
+fn colour(info: &Info<'_>, mut metadata: Metadata, is_damaged: bool) -> Metadata {
     let profile = info.icc_profile.as_ref().map(|profile| profile.to_vec());
+    let (primaries, transfer) = (info.chrm_chunk.and_then(from_chromaticities), info.gama_chunk.and_then(from_gamma));
+    let chroma = |used: Option<Primaries>| {
+        let other = primaries.filter(|said| used.is_some_and(|used| !used.is_same(said)));
+        other.map(|other| ("its cHRM chunk", other.to_string()))
+    };
+    let srgb = info.srgb.map(|_| ("its sRGB chunk", "sRGB".to_owned()));
     match cicp(info) {
         Some(Err(unknown)) => metadata.complaints.push(unknown),
         Some(Ok((primaries, transfer))) => {
             let profile =
                 Metadata::default().with_profile(profile).colour_space().map(|name| ("its ICC profile", name));
+            let damaged = is_damaged.then(|| ("its ICC profile", "nothing, since it is damaged".to_owned()));
             let metadata = Metadata { primaries, transfer, ..metadata };
-            let sayings = [profile, info.srgb.map(|_| ("its sRGB chunk", "sRGB".to_owned()))];
-            return told("cICP", metadata, sayings).with_range(info);
+            return told("cICP", metadata, [profile.or(damaged), srgb, chroma(primaries)]).with_range(info);
         }
         None => {}
     }
-    if profile.is_some() {
-        return metadata.with_profile(profile);
+    if is_damaged {
+        return metadata.with_damaged_profile("its iCCP chunk cannot be unpacked");
     }
-    let (primaries, transfer) = (info.chrm_chunk.and_then(from_chromaticities), info.gama_chunk.and_then(from_gamma));
+    if profile.is_some() {
+        let metadata = metadata.with_profile(profile);
+        let is_read = metadata.profile_fault.is_none();
+        let chroma = chroma(metadata.primaries);
+        return told("iCCP", metadata, [srgb.filter(|_| is_read), chroma]);
+    }
     if info.srgb.is_some() {
-        let other = primaries.filter(|primaries| !primaries.is_same(&Primaries::REC709));
-        let chroma = other.map(|other| ("its cHRM chunk", other.to_string()));
+        let chroma = chroma(Some(Primaries::REC709));
         // The gAMA chunk can only approximate such a function.
         let steep =
             transfer.filter(|transfer| !matches!(transfer, Transfer::Gamma(gamma) if (2.1..2.3).contains(gamma)));
@@ -66,14 +77,24 @@ fn colour(info: &Info<'_>, mut metadata: Metadata) -> Metadata {
 }
 
 /// Adds complaints about statements that contradict the chunk that takes precedence.
-fn told(chunk: &str, mut metadata: Metadata, sayings: [Option<(&str, String)>; 2]) -> Metadata {
-    let name = metadata.colour_space().unwrap_or_default();
+fn told<const N: usize>(chunk: &str, mut metadata: Metadata, sayings: [Option<(&str, String)>; N]) -> Metadata {
+    let name = metadata.colour_space().unwrap_or_else(|| "nothing of primaries or encoding".to_owned());
     for (place, other) in sayings.into_iter().flatten().filter(|(_, other)| *other != name) {
         metadata.complaints.push(format!(
             "its {chunk} chunk says {name} and {place} {other}; {chunk} comes first, as the PNG specification has it"
         ));
     }
     metadata
+}
+
+/// Returns what the stored codes are where they are not read as they are.
+fn rescaled(info: &Info<'_>) -> Option<String> {
+    let bits = info.bit_depth as u8;
+    let is_small = bits < 8 && info.color_type == ColorType::Grayscale;
+    if is_narrow(info) {
+        return Some("of narrow range, as in video".to_owned());
+    }
+    is_small.then(|| format!("of {bits} bits"))
 }
 
 /// Returns whether code values run from 16 to 235, as in video.
@@ -94,6 +115,9 @@ fn cicp(info: &Info<'_>) -> Option<Result<Coded, String>> {
     let primaries = Primaries::of_number(cicp.color_primaries);
     if primaries.is_none() && cicp.color_primaries != UNSPECIFIED {
         return ignored("the number of its primaries,", cicp.color_primaries, "one of ITU-T H.273's, 1 to 12 or 22");
+    }
+    if (cicp.color_primaries, cicp.transfer_function) == (UNSPECIFIED, UNSPECIFIED) {
+        return None;
     }
     let transfer = from_code_points(cicp.transfer_function);
     if transfer.is_none() && cicp.transfer_function != UNSPECIFIED {

@@ -8,12 +8,13 @@ use tiff::encoder::{DirectoryEncoder, TiffEncoder, TiffKind, TiffKindStandard};
 use tiff::tags::{ByteOrder, Tag, Type, ValueBuffer};
 use tiff::{Directory, TiffError};
 
-use crate::metadata::{LARGEST_EXIF, is_read, of_stored, stored};
+use crate::metadata::{LARGEST_EXIF, iptc, is_read, of_stored, stored};
 use crate::{Carried, Exif, Metadata};
 
 const XMP: Tag = Tag::Unknown(700);
 /// Tags of kinds that are not carried.
-const UNREAD: [(Tag, &str); 2] = [(Tag::Unknown(33723), "IPTC"), (Tag::Unknown(34377), "Photoshop's image resources")];
+const UNREAD: [(Tag, &str); 1] = [(Tag::Unknown(34377), "Photoshop's image resources")];
+const IPTC: Tag = Tag::Unknown(33723);
 
 /// Byte order of this machine.
 const NATIVE: ByteOrder = if cfg!(target_endian = "little") { ByteOrder::LittleEndian } else { ByteOrder::BigEndian };
@@ -39,6 +40,8 @@ pub(super) fn read<R: Read + Seek>(decoder: &mut Decoder<R>) -> Found {
     }
     let names = UNREAD.iter().filter(|(tag, _)| own.directory().contains(*tag)).map(|(_, name)| *name);
     found.carried.unread.extend(names);
+    let block = found.bytes(&mut own, IPTC);
+    found.carried.unread.extend(block.map(|(_, block)| iptc::kind(&block)));
     for (pointer, context) in [(Tag::ExifDirectory, Context::Exif), (Tag::GpsDirectory, Context::Gps)] {
         let place = decoder.get_tag(pointer).ok().and_then(|value| value.into_ifd_pointer().ok());
         if let Some(directory) = place.and_then(|place| decoder.read_directory(place).ok()) {

@@ -32,7 +32,16 @@ const REWRITTEN: [&str; 24] = [
 ];
 
 /// Attributes that are not true of the output, which is another picture: projection, field of view, pixels.
-const UNTRUE: [&str; 22] = [
+const UNTRUE: [&str; 35] = [
+    "cameraAperture",
+    "cameraFarClip",
+    "cameraFarClipPlane",
+    "cameraFov",
+    "cameraNearClip",
+    "cameraNearClipPlane",
+    "cameraProjection",
+    "cameraTargetDistance",
+    "cameraTransform",
     "envmap",
     "far",
     "fieldOfViewHorizontal",
@@ -40,19 +49,23 @@ const UNTRUE: [&str; 22] = [
     "fovcot",
     "multiView",
     "near",
+    "Nl",
+    "NP",
     "oiio:AverageColor",
     "oiio:ConstantColor",
     "oiio:SHA-1",
     "Orientation",
     "originalDataWindow",
+    "perspective:fov",
     "pinholeFocalLength",
     "preview",
+    "screenWindow",
     "sensorAcquisitionRectangle",
     "textureformat",
     "view",
     "worldToCamera",
-    "worldToNDC",
     "worldtocamera",
+    "worldToNDC",
     "worldtoscreen",
     "wrapmodes",
 ];
@@ -93,7 +106,7 @@ impl Attribute {
         let float = |bytes: &[u8]| word(bytes).map_or_else(String::new, |word| f32::from_bits(word).to_string());
         let integer = |bytes: &[u8]| word(bytes).map_or_else(String::new, |word| word.cast_signed().to_string());
         match (&*self.kind, self.bytes.len()) {
-            ("string", _) => self.bytes.iter().take(1024).map(|byte| char::from(*byte)).collect(),
+            ("string", _) => text(&self.bytes[..self.bytes.len().min(1024)]),
             ("int" | "v2i" | "v3i" | "box2i", 4..=16) => numbers(4, &integer),
             ("float" | "v2f" | "v3f" | "m33f" | "m44f" | "box2f" | "chromaticities", 4..=64) => numbers(4, &float),
             ("double", 8) => <[u8; 8]>::try_from(&*self.bytes).map(f64::from_le_bytes).unwrap_or_default().to_string(),
@@ -134,6 +147,11 @@ impl Attribute {
     }
 }
 
+/// Reads a text: UTF-8 as programs write it today, else Latin letters of 8 bits.
+fn text(bytes: &[u8]) -> String {
+    std::str::from_utf8(bytes).map_or_else(|_| bytes.iter().map(|byte| char::from(*byte)).collect(), str::to_owned)
+}
+
 /// Reads four bytes.
 fn word(bytes: &[u8]) -> Option<u32> {
     Some(u32::from_le_bytes(*bytes.first_chunk()?))
@@ -155,6 +173,7 @@ mod tests {
             Attribute { name: "x".to_owned(), kind: kind.to_owned(), bytes: bytes.to_vec() }.value()
         };
         assert_eq!(told("string", b"Studio \xe9"), "Studio é");
+        assert_eq!(told("string", "Jürgen".as_bytes()), "Jürgen");
         assert_eq!(told("rational", &[24, 0, 0, 0, 1, 0, 0, 0]), "24/1");
         assert_eq!(told("v2f", &[1.5_f32.to_le_bytes(), (-2.0_f32).to_le_bytes()].concat()), "1.5 -2");
         // OpenEXR's own reading of this word: hours 1, minutes 23, seconds 45, frame 12.

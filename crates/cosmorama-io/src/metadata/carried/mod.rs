@@ -2,6 +2,7 @@
 
 mod attribute;
 mod exif;
+pub(crate) mod iptc;
 mod text;
 mod xmp;
 
@@ -96,6 +97,7 @@ impl Carried {
         self.keep_exif(room, &mut kept);
         self.keep_xmp(room, &mut kept);
         kept.unread.clone_from(&self.unread);
+        kept.loses_owner |= self.unread.contains(&iptc::OF_OWNER);
         kept
     }
 

@@ -16,6 +16,10 @@ pub struct TextChunk {
 /// Keyword of an XMP packet.
 pub(crate) const XMP: &str = "XML:com.adobe.xmp";
 
+/// Exif as ImageMagick repeats it among texts, where it is not true of another picture.
+const UNTRUE: [&str; 4] =
+    ["exif:FocalLengthIn35mmFilm", "exif:DigitalZoomRatio", "exif:GPSImgDirection", "exif:GPSImgDirectionRef"];
+
 /// Greatest length of a text in bytes, once unpacked.
 const LONGEST: u64 = 1 << 20;
 
@@ -51,6 +55,7 @@ impl TextChunk {
     pub(super) fn is_untrue(&self) -> bool {
         let keyword = self.keyword();
         ["Raw profile type ", "Thumb::", "png:"].iter().any(|start| keyword.starts_with(start))
+            || UNTRUE.contains(&&*keyword)
     }
 }
 

@@ -61,7 +61,7 @@ const REWRITTEN: [(&str, &[&str]); 5] = [
 ];
 
 /// Properties that are not true of another picture than the input. An empty list of names means the whole namespace.
-const UNTRUE: [(&str, &[&str]); 18] = [
+const UNTRUE: [(&str, &[&str]); 22] = [
     (
         EXIF,
         &[
@@ -87,6 +87,21 @@ const UNTRUE: [(&str, &[&str]); 18] = [
     // Faces of people in the picture, by their place.
     ("http://www.metadataworkinggroup.com/schemas/regions/", &[]),
     ("http://ns.microsoft.com/photo/1.2/", &[]),
+    ("http://iptc.org/std/Iptc4xmpExt/2008-02-29/", &["ImageRegion"]),
+    // Where a drone's camera looked.
+    (
+        "http://www.dji.com/drone-dji/1.0/",
+        &[
+            "GimbalYawDegree",
+            "GimbalPitchDegree",
+            "GimbalRollDegree",
+            "FlightYawDegree",
+            "FlightPitchDegree",
+            "FlightRollDegree",
+        ],
+    ),
+    ("http://pix4d.com/camera/1.0", &["Yaw", "Pitch", "Roll"]),
+    ("http://pix4d.com/camera/1.0/", &["Yaw", "Pitch", "Roll"]),
     ("http://ns.microsoft.com/photo/1.2/t/RegionInfo#", &[]),
     // Pictures, depth, sound and films that lie in the file or behind the picture.
     ("http://ns.google.com/photos/1.0/camera/", &[]),

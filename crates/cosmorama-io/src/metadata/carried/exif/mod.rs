@@ -85,6 +85,17 @@ impl Exif {
         texts.first().map(|text| String::from_utf8_lossy(text).into_owned())
     }
 
+    /// Returns whether the fields say that a camera was set to Adobe RGB, as files without a profile do (DCF 2.0, CIPA
+    /// DC-009-2010): no space of Exif's own, and R03.
+    pub(crate) fn is_adobe_rgb(&self) -> bool {
+        let fields = self.fields();
+        let value =
+            |tag: Tag| Some(&fields.iter().find(|field| field.tag == tag && field.ifd_num == In::PRIMARY)?.value);
+        let is_r03 = |value: &Value| matches!(value, Value::Ascii(texts) if texts.iter().any(|text| text == b"R03"));
+        value(Tag::ColorSpace).is_some_and(|space| space.get_uint(0) == Some(0xffff))
+            && value(Tag::InteroperabilityIndex).is_some_and(is_r03)
+    }
+
     /// Returns whether a field names the picture's author or owner.
     pub(super) fn says_whose(&self) -> bool {
         self.fields().iter().any(|field| [Tag::Artist, Tag::Copyright].contains(&field.tag))
