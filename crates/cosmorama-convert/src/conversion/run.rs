@@ -37,7 +37,7 @@ impl Checked {
         }
         let Self { job, settings, stages, diagnostics, start, content, .. } = self;
         let inputs: BTreeSet<PathBuf> = if content.has_files() {
-            job.outputs.frames.iter().flat_map(|frame| job.input.paths(frame.frame)).collect()
+            job.outputs.frames.iter().flat_map(|frame| job.paths(frame.frame)).collect()
         } else {
             BTreeSet::from([PathBuf::from(&settings.input)])
         };
@@ -82,6 +82,7 @@ impl Checked {
         };
         let mut told = engine.told();
         told.extend(run.tally.warnings(job));
+        told.extend(engine.tallied_behind());
         // Maps of light are measured by frame.
         if job.lighting.is_none() {
             told.extend(too_bright(job, (None, 0), engine.writer().overflowed()));
