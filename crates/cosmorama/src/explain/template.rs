@@ -14,7 +14,7 @@ pub enum Guide {
     Grid,
     /// The horizon.
     Horizon,
-    /// What other pictures show, too, and a strip along edges beyond which another picture goes on.
+    /// Parts that other pictures show, too, and a strip along edges beyond which another picture goes on.
     Overlaps,
     /// Lines a twentieth and a tenth of the picture inside of its edge or its circle; what is nearer to the edge is tinted.
     SafeArea,

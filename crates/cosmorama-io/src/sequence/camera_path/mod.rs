@@ -47,7 +47,7 @@ pub struct PathPose {
     pub fov: Option<Angle>,
 }
 
-/// What is known of a file with the path of a camera, beside its bytes.
+/// File with the path of a camera, apart from its bytes.
 #[derive(Clone, Copy)]
 pub struct PathSource<'a> {
     /// Name of the file: `.glb` and `.gltf` are glTF.

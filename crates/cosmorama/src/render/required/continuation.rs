@@ -14,7 +14,7 @@ use crate::world::World;
 /// Way in which a world goes on beyond its edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Beyond {
-    /// What lies as far from the nearest point of the edge, on its other side, as in a mirror that stands there.
+    /// Direction that lies as far from the nearest point of the edge, on its other side, as in a mirror that stands there.
     Mirror,
     /// The nearest direction that the world covers.
     Stretch,
