@@ -28,8 +28,8 @@ pub(super) fn run(mut args: ExplainArgs, console: &mut Console) -> Result<ExitCo
     let (template, distances) = (args.template.take(), args.travel.zip(args.nearest));
     if let Some(folder) = &template {
         let files = template::write(folder, &args.geometry.clone().into(), overwrite, console)?;
-        let told = files.iter().filter(|_| !as_json);
-        told.into_iter().try_for_each(|file| console.print(&format!("wrote    {}\n", file.display())))?;
+        let mut told = files.iter().filter(|_| !as_json);
+        told.try_for_each(|file| console.print(&format!("wrote    {}\n", file.display())))?;
         if !has_input && args.geometry.from.is_none() {
             return Ok(ExitCode::SUCCESS);
         }

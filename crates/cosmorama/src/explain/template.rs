@@ -75,7 +75,7 @@ fn line(distance: f64, width: f64) -> f64 {
     (width / 2.0 + 0.5 - distance).clamp(0.0, 1.0)
 }
 
-/// Returns an angle and how far it goes on in a pixel, given its derivatives by the direction.
+/// Returns the change of an angle over a pixel, given its derivatives by the direction.
 fn per_pixel(footprint: &Footprint, gradient: DVec3) -> f64 {
     gradient.dot(footprint.jacobian.dx).hypot(gradient.dot(footprint.jacobian.dy))
 }
