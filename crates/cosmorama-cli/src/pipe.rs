@@ -91,6 +91,7 @@ impl Piped {
         check(&args, args.output == STREAM)?;
         let mut kept = KeptStreams::default();
         args.input = kept.input(&args.input)?;
+        args.backdrop = args.backdrop.map(|backdrop| kept.input(&backdrop)).transpose()?;
         let mut scratch = None;
         if let Some(format) = &args.format {
             let folder = scratch.insert(folder(console)?);

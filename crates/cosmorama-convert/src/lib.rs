@@ -31,8 +31,9 @@ pub use input::{Builtin, Input, InputView, Listed, face_set, is_one_file, listed
 pub use job::{Remade, check_apart, real_path, refuse_existing};
 pub use packing::{Place, face_placement};
 pub use settings::{
-    BlurMethod, CameraMovement, Conversion, DepthKind, Every, Existing, GeometrySettings, LayerSettings, LightLevel,
-    LightNormalisation, LightScale, LightSettings, LimitSettings, MotionBlur, NormalSpace, OcioSettings,
+    Backdrop, BlurMethod, CameraMovement, Conversion, DepthKind, Every, Existing, GeometrySettings, LayerSettings,
+    LightLevel, LightNormalisation, LightScale, LightSettings, LimitSettings, MotionBlur, NormalSpace, OcioSettings,
+    PoseFile,
 };
 pub use source::{Disk, Files, InMemory, MemoryBudget, ViewFiles, existing_frames, peak_bytes, probe, read};
 pub use target::{CHAIN_EDGE, Picture, is_cube_of_light};

@@ -1,3 +1,4 @@
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use cosmorama::filter::FilterKind;
@@ -6,8 +7,8 @@ use cosmorama::motion::{Easing, Ramp, Shutter, Smoothness};
 use cosmorama::raster::{Depth, Primaries, Rgba};
 use cosmorama::sphere::{Angle, Orientation};
 use cosmorama_io::pending::Unfinished;
-use cosmorama_io::{Compression, FrameList, Remark};
-use cosmorama_spec::{FilterName, KernelName, MemorySize, Missing, Size, Spec, TransferName};
+use cosmorama_io::{CameraPath, Compression, FrameList, Remark};
+use cosmorama_spec::{FilterName, FrameMap, KernelName, MemorySize, Missing, Size, Spec, TransferName};
 
 use crate::source::{Disk, Files};
 
@@ -62,8 +63,12 @@ pub struct Conversion {
     pub depth: Option<Depth>,
     /// Light of pixels outside the lens; black, or transparent if the output has alpha, unless given.
     pub background: Option<Rgba>,
-    /// Treatment of directions that no view covers.
+    /// Treatment of directions that no view covers; of those that a backdrop does not cover, if there is one.
     pub missing: Missing,
+    /// World behind the input's alpha, and behind what the input does not cover.
+    pub backdrop: Option<Backdrop>,
+    /// Factor of the input's light and its alpha, from 0 to 1.
+    pub opacity: f32,
     /// Frames of a sequence; all that exist, unless given.
     pub frames: Option<FrameList>,
     /// Treatment of outputs that exist already.
@@ -103,6 +108,8 @@ pub struct GeometrySettings {
     pub orientation: Orientation,
     /// Movement of the output's camera, which turns that orientation frame by frame.
     pub camera: Option<CameraMovement>,
+    /// Poses of the input, which turn all of it frame by frame.
+    pub in_path: Option<PoseFile>,
     /// Blur of what the camera's movement moves; none, unless given.
     pub blur: Option<MotionBlur>,
     /// Filter.
@@ -113,19 +120,22 @@ pub struct GeometrySettings {
     pub anti_ringing: Option<bool>,
 }
 
+impl GeometrySettings {
+    /// Visits the files of poses, of the camera and of the input.
+    pub(crate) fn pose_files(&self) -> impl Iterator<Item = PathBuf> {
+        let path = match &self.camera {
+            Some(CameraMovement::Path(path)) => Some(path),
+            Some(CameraMovement::Turn { .. }) | None => None,
+        };
+        path.into_iter().chain(&self.in_path).map(|path| CameraPath::split_node(&path.file).0.into())
+    }
+}
+
 /// Movement of a camera.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CameraMovement {
-    /// Through the poses in a file, which [`cosmorama_io::CameraPath`] reads. A still input is converted to all frames of
-    /// the path.
-    Path {
-        /// Name of the file.
-        file: String,
-        /// Frames in a second, for time stamps.
-        fps: Option<f64>,
-        /// Movement from pose to pose.
-        smoothness: Smoothness,
-    },
+    /// Through the poses in a file. A still input is converted to all frames of the path.
+    Path(PoseFile),
     /// From one orientation to another, over all frames.
     Turn {
         /// Yaw, pitch and roll in degrees.
@@ -135,6 +145,41 @@ pub enum CameraMovement {
         /// Rate of the turn.
         easing: Easing,
     },
+}
+
+/// Poses by frame or by time, in a file that [`cosmorama_io::CameraPath`] reads.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PoseFile {
+    /// Name of the file; of glTF perhaps with that of a node in it, as in `shot.glb#Camera`.
+    pub file: String,
+    /// Frames in a second, for time stamps.
+    pub fps: Option<f64>,
+    /// Movement from pose to pose.
+    pub smoothness: Smoothness,
+}
+
+/// A world behind the input's alpha.
+#[derive(Clone, Debug)]
+pub struct Backdrop {
+    /// Files in any form of an input, or `builtin:NAME`.
+    pub input: String,
+    /// Its projection; detected from metadata, names or shape, unless given.
+    pub from: Option<Spec>,
+    /// Its frame for each frame of the output.
+    pub frames: FrameMap,
+    /// Poses that turn all of it frame by frame.
+    pub in_path: Option<PoseFile>,
+    /// Factor of its light and its alpha, from 0 to 1.
+    pub opacity: f32,
+    /// World behind it.
+    pub behind: Option<Box<Backdrop>>,
+}
+
+impl Backdrop {
+    /// Returns a backdrop that stands still, in frames of its own numbers, with nothing behind it.
+    pub fn new(input: impl Into<String>) -> Self {
+        Self { input: input.into(), from: None, frames: FrameMap::default(), in_path: None, opacity: 1.0, behind: None }
+    }
 }
 
 /// Blur of what moves while a shutter is open.
@@ -329,6 +374,7 @@ impl Default for GeometrySettings {
             size: None,
             orientation: Orientation::IDENTITY,
             camera: None,
+            in_path: None,
             blur: None,
             filter: FilterName(FilterKind::Ewa),
             kernel: KernelName::default(),
@@ -359,6 +405,8 @@ impl Default for Conversion {
             depth: None,
             background: None,
             missing: Missing::Error,
+            backdrop: None,
+            opacity: 1.0,
             frames: None,
             existing: Existing::default(),
             make_folders: true,
@@ -434,6 +482,13 @@ impl Conversion {
     #[must_use]
     pub fn missing(mut self, missing: Missing) -> Self {
         self.missing = missing;
+        self
+    }
+
+    /// Lays a world behind the input.
+    #[must_use]
+    pub fn over(mut self, backdrop: Backdrop) -> Self {
+        self.backdrop = Some(backdrop);
         self
     }
 

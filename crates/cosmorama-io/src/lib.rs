@@ -57,4 +57,4 @@ pub use metadata::{
     Remark, SampleKind, TextChunk, Window,
 };
 pub use pto::{PtoError, PtoImage, PtoPanorama, PtoProject};
-pub use sequence::{CameraPath, CameraPathError, FoundFrames, FrameList, FramePattern, Frames, PathPose};
+pub use sequence::{CameraPath, CameraPathError, FoundFrames, FrameList, FramePattern, Frames, PathPose, PathSource};

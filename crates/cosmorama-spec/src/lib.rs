@@ -33,7 +33,7 @@ mod angle;
 mod compression;
 mod error;
 mod filter;
-mod frame_ranges;
+mod frames;
 mod light;
 mod memory;
 mod number;
@@ -45,7 +45,7 @@ pub use angle::{Degrees, parse_degrees, parse_ramp};
 pub use compression::CompressionLevel;
 pub use error::{SpecError, WordError, WordKind, did_you_mean, nearest};
 pub use filter::{FilterName, KernelName};
-pub use frame_ranges::{FrameRanges, FrameRangesError};
+pub use frames::{FrameEnds, FrameMap, FrameRanges, FrameRangesError};
 pub use light::{
     Colour, DepthName, Missing, PrimariesName, TransferName, colour_table_csv, colour_table_of_csv,
     colour_table_of_stops,

@@ -1,5 +1,6 @@
 //! The demo world: an arcade under a glazed vault, late on a sunny afternoon.
 
+mod eyepiece;
 mod hall;
 mod lettering;
 mod noise;
@@ -10,6 +11,8 @@ mod thing;
 
 use cosmorama::sphere::Direction;
 use glam::DVec3;
+
+pub use eyepiece::Eyepiece;
 
 use crate::Radiance;
 use ray::{Hit, Part, Ray, Surface};

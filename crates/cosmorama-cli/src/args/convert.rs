@@ -3,8 +3,8 @@ use clap::{Args, ValueHint};
 use cosmorama_convert::{DepthKind, NormalSpace, OcioSettings};
 use cosmorama_io::FrameList;
 use cosmorama_spec::{
-    Colour, CompressionLevel, DepthName, FrameRanges, FrameRangesError, MemorySize, Missing, PrimariesName,
-    TransferName,
+    Colour, CompressionLevel, DepthName, FrameMap, FrameRanges, FrameRangesError, MemorySize, Missing, PrimariesName,
+    Spec, TransferName,
 };
 
 use super::ProgressStyle;
@@ -146,11 +146,26 @@ pub(crate) struct ConvertArgs {
     /// #rrggbbaa, or r,g,b of linear light.
     #[arg(long, value_name = "COLOR", help_heading = "Light")]
     pub(crate) background: Option<Colour>,
-    /// Uncovered: error (default), transparent or a colour
+    /// Uncovered: error (default), mirror, stretch or a colour
     ///
-    /// Pixels that look where no view of the input does.
+    /// Pixels that look where no view of the input does: transparent is a colour, too. mirror shows what lies as far inside the edge of the input, stretch
+    /// the nearest of it.
     #[arg(long, value_name = "COLOR", default_value = "error", hide_default_value = true, help_heading = "Light")]
     pub(crate) missing: Missing,
+    /// A world behind the input's alpha, and behind what it does not cover
+    ///
+    /// Named like an input; builtin:NAME, too. Both are seen by the same camera, and composited in linear light.
+    #[arg(long, value_name = "INPUT", value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new(), hide_short_help = true, help_heading = "Light")]
+    pub(crate) backdrop: Option<String>,
+    /// The backdrop's projection [default: found]
+    #[arg(long, value_name = "SPEC", value_parser = listed::spec(), hide_possible_values = true, requires = "backdrop", hide_short_help = true, help_heading = "Light")]
+    pub(crate) backdrop_from: Option<Spec>,
+    /// The backdrop's frames: step (default), hold or loop; +N adds, as in loop+12
+    ///
+    /// step takes the frame of the same number, which must be there; hold goes on with the last one (and begins with the first),
+    /// loop repeats all. A number is added to the frame: +12 begins 12 frames later in the backdrop.
+    #[arg(long, value_name = "RULE", value_parser = frame_map, requires = "backdrop", allow_hyphen_values = true, hide_short_help = true, help_heading = "Frames and files")]
+    pub(crate) backdrop_frames: Option<FrameMap>,
     #[command(flatten)]
     pub(crate) files: FilesArgs,
     /// The format of standard output, as in --format png
@@ -251,6 +266,11 @@ fn normals() -> impl TypedValueParser<Value = NormalSpace> {
 /// Reads a list of frames.
 pub(super) fn frame_list(text: &str) -> Result<FrameList, FrameRangesError> {
     text.parse().map(|ranges: FrameRanges| FrameList::new(ranges.frames()))
+}
+
+/// Reads the rule for a backdrop's frames.
+fn frame_map(text: &str) -> Result<FrameMap, String> {
+    text.parse()
 }
 
 fn quality(text: &str) -> Result<u8, String> {

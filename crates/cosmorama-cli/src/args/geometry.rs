@@ -74,6 +74,11 @@ pub(crate) struct CameraArgs {
     /// converted to all frames of the path, or to those of --frames (docs/motion.md).
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new(), conflicts_with_all = ["yaw", "pitch", "roll", "fov", "easing"], help_heading = "Geometry")]
     pub(crate) path: Option<String>,
+    /// Poses of the input by frame, as those of --path: it is turned frame by frame
+    ///
+    /// A camera's own motion steadies its pictures: its poses, as its gyroscope measured them, put each frame where it was taken.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new(), hide_short_help = true, help_heading = "Geometry")]
+    pub(crate) in_path: Option<String>,
     /// Frames a second, where a path has time in seconds instead of frame
     #[arg(long, value_name = "N", value_parser = positive, allow_hyphen_values = true, hide_short_help = true, help_heading = "Geometry")]
     pub(crate) fps: Option<f64>,

@@ -5,8 +5,8 @@ use cosmorama::motion::{Ramp, Shutter};
 use cosmorama::raster::Depth;
 use cosmorama::sphere::{Angle, Orientation};
 use cosmorama_convert::{
-    BlurMethod, CameraMovement, Conversion, Existing, ExplanationSettings, GeometrySettings, LayerSettings,
-    LimitSettings, MotionBlur,
+    Backdrop, BlurMethod, CameraMovement, Conversion, Existing, ExplanationSettings, GeometrySettings, LayerSettings,
+    LimitSettings, MotionBlur, PoseFile,
 };
 use cosmorama_io::Compression;
 use cosmorama_spec::{CompressionLevel, FilterName};
@@ -35,6 +35,11 @@ impl From<ConvertArgs> for Conversion {
             depth: args.depth.map(Depth::from),
             background: args.background.map(|colour| colour.0),
             missing: args.missing,
+            backdrop: args.backdrop.map(|input| Backdrop {
+                from: args.backdrop_from,
+                frames: args.backdrop_frames.unwrap_or_default(),
+                ..Backdrop::new(input)
+            }),
             frames: args.files.frames,
             existing: existing(args.files.overwrite, args.files.resume),
             make_folders: !args.files.no_mkdir,
@@ -66,11 +71,10 @@ impl From<ExplainArgs> for ExplanationSettings {
 fn moved(geometry: GeometryArgs, camera: CameraArgs) -> GeometrySettings {
     let angles = [geometry.yaw, geometry.pitch, geometry.roll];
     let moves = angles.iter().chain(&camera.fov).any(Ramp::moves);
+    let poses = |file: String| PoseFile { file, fps: camera.fps, smoothness: camera.path_curve.unwrap_or_default() };
+    let in_path = camera.in_path.map(poses);
     let movement = match camera.path {
-        Some(file) => {
-            let smoothness = camera.path_curve.unwrap_or_default();
-            Some(CameraMovement::Path { file, fps: camera.fps, smoothness })
-        }
+        Some(file) => Some(CameraMovement::Path(poses(file))),
         None if moves => {
             Some(CameraMovement::Turn { angles, fov: camera.fov, easing: camera.easing.unwrap_or_default() })
         }
@@ -78,7 +82,7 @@ fn moved(geometry: GeometryArgs, camera: CameraArgs) -> GeometrySettings {
     };
     let still = GeometrySettings::from(geometry);
     let orientation = if movement.is_some() { Orientation::IDENTITY } else { still.orientation };
-    GeometrySettings { orientation, camera: movement, ..still }
+    GeometrySettings { orientation, camera: movement, in_path, ..still }
 }
 
 /// Returns the geometry of a camera that stands still, as it is at the beginning of a turn.
@@ -91,6 +95,7 @@ impl From<GeometryArgs> for GeometrySettings {
             size: args.size,
             orientation: Orientation::from_yaw_pitch_roll(yaw, pitch, roll),
             camera: None,
+            in_path: None,
             blur: None,
             filter: args.labels.map_or(args.filter, |rule| FilterName(FilterKind::Labels(rule))),
             kernel: args.kernel,
@@ -131,14 +136,15 @@ impl CameraArgs {
     /// Returns an option that has no effect without another, and why.
     pub(crate) fn idle(&self, geometry: &GeometryArgs) -> Option<String> {
         let turns = [geometry.yaw, geometry.pitch, geometry.roll].iter().chain(&self.fov).any(Ramp::moves);
-        if self.path.is_none() && self.fps.is_some() {
+        let has_poses = self.path.is_some() || self.in_path.is_some();
+        if !has_poses && self.fps.is_some() {
             return Some(
                 "--fps is for a --path with times in seconds; leave it out: pictures have no frame rate; ffmpeg is told it when it \
                  makes the video (docs/video.md)"
                     .to_owned(),
             );
         }
-        if self.path.is_none() && self.path_curve.is_some() {
+        if !has_poses && self.path_curve.is_some() {
             return Some("--path-curve is for the poses of a --path; leave it out, or give that".to_owned());
         }
         (self.easing.is_some() && !turns).then(|| {

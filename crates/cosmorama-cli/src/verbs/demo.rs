@@ -15,7 +15,7 @@ use cosmorama_convert::{Conversion, Existing, face_placement, refuse_existing, t
 use cosmorama_io::{FacePlacement, Metadata, WriteOptions, write};
 use cosmorama_spec::{Cube, FilterName, Size};
 
-use super::{convert, diagram, make_folder};
+use super::{animation, convert, diagram, make_folder};
 use crate::args::{DemoArgs, ProgressStyle};
 use crate::console::Console;
 use crate::failure::usage;
@@ -28,6 +28,9 @@ const FRAME: (usize, usize) = (1966, 1436);
 const FACES: &str = "faces";
 const FRAMES: [(&str, FilterKind); 2] = [("omnimax.png", FilterKind::Ewa), ("omnimax-point.png", FilterKind::Point)];
 const UNFOLDED: &str = "unfolded";
+
+/// Folder of the animation.
+const ANIMATION: &str = "animation";
 
 /// A face of which only the part that the frame needs is rendered.
 struct PartialFace {
@@ -61,6 +64,9 @@ pub(super) fn run(args: &DemoArgs, console: &Console) -> Result<ExitCode> {
         repeatable_conversion(args, &source, &args.dir.join(name), &from(&faces), filter, console)?;
     }
     pool.install(|| draw_unfolded(&args.dir, &faces, &target, console))?;
+    if let Some(frames) = args.animation {
+        animation::run(args, frames, &args.dir.join(ANIMATION), console)?;
+    }
     console.print(&format!("all of it in {:.2} s\n", start.elapsed().as_secs_f64()))?;
     Ok(ExitCode::SUCCESS)
 }
@@ -151,7 +157,7 @@ fn repeatable_conversion(
 }
 
 /// Quotes a word for a shell.
-fn quoted(word: &str) -> String {
+pub(super) fn quoted(word: &str) -> String {
     let plain = |letter: char| letter.is_ascii_alphanumeric() || "-_./:=,+".contains(letter);
     if word.chars().all(plain) { word.to_owned() } else { format!("'{}'", word.replace('\'', "'\\''")) }
 }
@@ -172,6 +178,6 @@ fn draw_unfolded(folder: &Path, faces: &[PartialFace], target: &View, console: &
     tell(console, &raster, "the same as pixels", start)
 }
 
-fn tell(console: &Console, path: &Path, what: &str, start: Instant) -> Result<()> {
+pub(super) fn tell(console: &Console, path: &Path, what: &str, start: Instant) -> Result<()> {
     console.print(&format!("{:<40} {what} in {:.2} s\n", path.display().to_string(), start.elapsed().as_secs_f64()))
 }

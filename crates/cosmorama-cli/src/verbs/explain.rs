@@ -11,7 +11,7 @@ use cosmorama_convert::{Explanation, ExplanationSettings, PathExplanation, Pictu
 use cosmorama_io::pending::Hidden;
 use serde_json::{Value, json};
 
-use super::{diagram, make_folder};
+use super::{diagram, make_folder, template};
 use crate::args::ExplainArgs;
 use crate::console::Console;
 use crate::failure::usage;
@@ -25,6 +25,15 @@ pub(super) fn run(mut args: ExplainArgs, console: &mut Console) -> Result<ExitCo
     let mut kept = KeptStreams::default();
     args.input = args.input.map(|input| kept.input(&input)).transpose()?;
     let (output, overwrite, as_json, has_input) = (args.output.take(), args.overwrite, args.json, args.input.is_some());
+    let (template, distances) = (args.template.take(), args.travel.zip(args.nearest));
+    if let Some(folder) = &template {
+        let files = template::write(folder, &args.geometry.clone().into(), overwrite, console)?;
+        let mut told = files.iter().filter(|_| !as_json);
+        told.try_for_each(|file| console.print(&format!("wrote    {}\n", file.display())))?;
+        if !has_input && args.geometry.from.is_none() {
+            return Ok(ExitCode::SUCCESS);
+        }
+    }
     let checked = ExplanationSettings { files: kept.files(), ..args.into() }.check();
     console.tell_all(&checked);
     let explanation = checked.result?;
@@ -66,6 +75,16 @@ pub(super) fn run(mut args: ExplainArgs, console: &mut Console) -> Result<ExitCo
         files.iter().for_each(|file| text += &format!("wrote    {}\n", file.display()));
         if let Some(first) = reports.first_mut() {
             first["path"] = path_json(path, has_input, &files);
+        }
+    }
+    if let Some((travel, nearest)) = distances {
+        let parallax = explanation.parallax(path.as_ref(), travel, nearest)?;
+        text += &format!("{parallax}");
+        if let Some(first) = reports.first_mut() {
+            first["parallax"] = json!({
+                "travel": travel, "nearest": nearest, "degrees": parallax.degrees, "pixels": parallax.pixels,
+                "unseen_from": parallax.unseen_from,
+            });
         }
     }
     // All diagrams, or none.

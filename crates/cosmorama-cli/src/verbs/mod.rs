@@ -1,5 +1,6 @@
 //! Verbs of the program, a file for each.
 
+mod animation;
 mod compare;
 mod convert;
 mod demo;
@@ -9,6 +10,7 @@ mod help;
 mod info;
 mod light;
 mod shade;
+mod template;
 
 use std::fmt::Display;
 use std::path::Path;

@@ -65,11 +65,14 @@ mod output {
 }
 
 mod sequence {
+    mod backdrop;
+    mod choices;
     mod motion;
     mod resume;
     #[cfg(target_os = "linux")]
     mod sequence_memory;
     mod sequences;
+    mod sky;
 }
 
 mod usage {

@@ -83,16 +83,27 @@ impl InputTransfer {
 }
 
 impl Light {
+    /// Resolves the settings for an input. Outputs show the backdrop behind it, too, if there is one.
     pub(crate) fn resolve(
         args: &Conversion,
         input: &Input,
         target: &Target,
+        behind: Option<&Self>,
         warnings: &mut Vec<Diagnostic>,
     ) -> Result<Self> {
         let headers = profile::headers(args, input, warnings);
         let headers: Vec<&Header> = headers.iter().collect();
-        let channels = channels(args, &headers, target, warnings)?;
-        let depth = depth(args, &headers, target)?;
+        let own = depth(args, &headers, target)?;
+        let (channels, depth) = match behind {
+            // What is behind shows wherever the input is transparent.
+            Some(behind) => {
+                let is_colour = behind.channels.is_colour() || headers.iter().any(|header| header.channels.is_colour());
+                let plain = if is_colour { Channels::Rgb } else { Channels::Grey };
+                let wanted = if behind.channels.has_alpha() { plain.with_alpha() } else { plain };
+                (target.format.nearest_channels(wanted), deeper(own, behind.depth))
+            }
+            None => (channels(args, &headers, target, warnings)?, own),
+        };
         let side = InputTransfer::new(&args.transfer, args.in_transfer.as_ref());
         let primaries = Working::choose(args, &headers, target.format, warnings);
         // A profile for such primaries holds any transfer function, too.
@@ -205,7 +216,7 @@ fn channels(
     let background = args.background;
     let coloured = |light: Rgba| light.0[0] != light.0[1] || light.0[1] != light.0[2];
     let fill = match args.missing {
-        Missing::Error => None,
+        Missing::Error | Missing::Continue(_) => None,
         Missing::Fill(colour) => Some(colour),
     };
     // Light by a formula is coloured.
@@ -213,7 +224,7 @@ fn channels(
         || args.ocio.is_asked()
         || headers.iter().any(|header| header.channels.is_colour())
         || [background, fill].into_iter().flatten().any(coloured);
-    let transparent = [background, fill].into_iter().flatten().any(|light| light.alpha() < 1.0);
+    let transparent = args.opacity < 1.0 || [background, fill].into_iter().flatten().any(|light| light.alpha() < 1.0);
     let alpha = transparent || headers.iter().any(|header| header.channels.has_alpha());
     let plain = if colour { Channels::Rgb } else { Channels::Grey };
     let wanted = if alpha { plain.with_alpha() } else { plain };
@@ -235,14 +246,19 @@ fn channels(
     Ok(possible)
 }
 
+/// Returns the deeper of two sample types.
+fn deeper(a: Depth, b: Depth) -> Depth {
+    let rank = |depth: Depth| Depth::ALL.iter().position(|other| *other == depth);
+    if rank(b) > rank(a) { b } else { a }
+}
+
 fn depth(args: &Conversion, headers: &[&Header], target: &Target) -> Result<Depth> {
     let Some(asked) = args.depth else {
         if args.light.is_some() {
             // Light is not bounded by white, whatever the input was.
             return Ok(target.format.nearest_depth(Depth::Float));
         }
-        let rank = |depth: &Depth| Depth::ALL.iter().position(|other| other == depth);
-        let deepest = headers.iter().map(|header| header.depth).max_by_key(rank).unwrap_or(Depth::Eight);
+        let deepest = headers.iter().map(|header| header.depth).fold(Depth::Eight, deeper);
         return Ok(target.format.nearest_depth(deepest));
     };
     if target.format.depths().contains(&asked) {

@@ -3,10 +3,11 @@ use std::time::Instant;
 use cosmorama::explain;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use crate::diagnostic::{Diagnostic, Outcome, Result, failure};
+use crate::diagnostic::{Diagnostic, FROM, IN_PATH, Outcome, Result, failure, usage};
 use crate::engine::{FrameFile, Stage, Stages};
+use crate::input::lists::world_file;
 use crate::job::{Content, ConvertJob, Purpose};
-use crate::settings::Conversion;
+use crate::settings::{Backdrop, Conversion, GeometrySettings};
 
 /// A conversion that has been checked as far as possible without decoding pixels.
 pub struct Checked {
@@ -32,15 +33,17 @@ impl Conversion {
 
     fn checked(self, diagnostics: &mut Vec<Diagnostic>) -> Result<Checked> {
         let (start, stages) = (Instant::now(), Stages::default());
-        let content = Content::of(&self)?;
-        let pool = threads(self.limits.threads)?;
+        let settings = with_layers(self)?;
+        let content = Content::of(&settings)?;
+        let pool = threads(settings.limits.threads)?;
         let resolve =
-            || stages.alone(Stage::Plan, || ConvertJob::resolve(&self, (content, Purpose::Pictures), diagnostics));
+            || stages.alone(Stage::Plan, || ConvertJob::resolve(&settings, (content, Purpose::Pictures), diagnostics));
         let job = pool.install(resolve)?;
         if content.has_files() {
-            pool.install(|| stages.alone(Stage::Decode, || FrameFile::check_frames(&job)))?;
+            let check = || job.layers().try_for_each(FrameFile::check_frames);
+            pool.install(|| stages.alone(Stage::Decode, check))?;
         }
-        Ok(Checked { settings: self, content, job, pool, diagnostics: diagnostics.clone(), stages, start })
+        Ok(Checked { settings, content, job, pool, diagnostics: diagnostics.clone(), stages, start })
     }
 }
 
@@ -55,6 +58,34 @@ impl Checked {
         };
         pool.install(|| views.map(report).collect())
     }
+}
+
+/// Puts the layers of a world file in place of its name: the first is the input, and the others lie behind it, before a
+/// backdrop.
+fn with_layers(mut settings: Conversion) -> Result<Conversion> {
+    let layers = world_file::layers(&settings.input, &*settings.files)?;
+    if layers.is_empty() {
+        return Ok(settings);
+    }
+    if settings.light.is_some() {
+        return Err(usage(format!("{} has layers, but light is that of one world; name one of them", settings.input)));
+    }
+    if settings.geometry.from.is_some() || settings.geometry.in_path.is_some() {
+        let name = &settings.input;
+        return Err(usage(format!(
+            "{name} has layers, each with a spec and a path of its own; leave {FROM} and {IN_PATH} out"
+        )));
+    }
+    let mut front = settings.backdrop.take();
+    for layer in layers.into_iter().rev() {
+        front = Some(Backdrop { behind: front.map(Box::new), ..layer });
+    }
+    if let Some(Backdrop { input, from, in_path, opacity, behind, .. }) = front {
+        settings.backdrop = behind.map(|behind| *behind);
+        settings.geometry = GeometrySettings { from, in_path, ..settings.geometry };
+        settings = Conversion { input, opacity, ..settings };
+    }
+    Ok(settings)
 }
 
 /// Starts a pool of threads.

@@ -11,14 +11,14 @@ use cosmorama_spec::Size;
 use rayon::ThreadPool;
 
 use super::check::threads;
-use crate::diagnostic::{Code, Diagnostic, FROM, Outcome, Result, TO, usage, usage_as};
+use crate::diagnostic::{Code, Diagnostic, FROM, NEAREST, Outcome, Result, TO, TRAVEL, usage, usage_as};
 use crate::input::spec_files::st_map::settled;
 use crate::input::{Builtin, Input, InputView};
 use crate::job::coverage::whole_worlds;
 use crate::job::files_read;
 use crate::job::gaps::{Shot, find_gaps};
 use crate::job::options::filter;
-use crate::settings::{CameraMovement, GeometrySettings, LimitSettings};
+use crate::settings::{GeometrySettings, LimitSettings};
 use crate::source::{Access, ChosenFiles, DecodedPicture, Disk, Files, MemoryBudget};
 use crate::target::{Movement, Picture, TargetView, aspect, time};
 
@@ -149,9 +149,7 @@ impl ExplanationSettings {
         let turned = movement.views(&targets, &movement.pose(time(first)))?;
         pictures.iter_mut().zip(turned).for_each(|(picture, target)| picture.view = target.view);
         input.frames = frames;
-        if let Some(CameraMovement::Path { file, .. }) = &geometry.camera {
-            input.beside.push(file.into());
-        }
+        input.beside.extend(geometry.pose_files());
         Ok(Some((movement, targets)))
     }
 
@@ -167,7 +165,8 @@ impl ExplanationSettings {
                  explain {FROM} SPEC"
             ))),
             (Some(pattern), from) => {
-                let is_sequence = geometry.camera.is_some() && Input::may_be_sequence(pattern);
+                let moves = geometry.camera.is_some() || geometry.in_path.is_some();
+                let is_sequence = moves && Input::may_be_sequence(pattern);
                 let wanted = self.frames.as_ref().filter(|_| is_sequence);
                 let input = Input::find(pattern, from.as_ref(), wanted, access, warnings)?;
                 let pictures = Picture::all(geometry, None, Some(input.pixels_per_radian()))?;
@@ -237,6 +236,22 @@ impl Explanation {
         let report = self.pool.install(|| explain::PathReport::of(&worlds[0], &views));
         let gaps = if self.has_input { self.gaps(worlds, (movement, targets))? } else { Vec::new() };
         Ok(Some(PathExplanation { frames: FrameList::new(numbers), report, gaps, views }))
+    }
+
+    /// Computes the error of near things for a camera that leaves the place where the world was made, over a path or over the
+    /// pictures of a camera that stands still.
+    ///
+    /// # Errors
+    /// When the camera gets as far as the nearest thing.
+    pub fn parallax(&self, path: Option<&PathExplanation>, travel: f64, nearest: f64) -> Result<explain::Parallax> {
+        let still = || vec![self.pictures.iter().map(|picture| picture.view.clone()).collect()];
+        let frames = path.map_or_else(still, |path| path.views.clone());
+        explain::Parallax::of(&frames, travel, nearest).ok_or_else(|| {
+            usage(format!(
+                "{TRAVEL} {travel} is not less than {NEAREST} {nearest}: the camera would pass the nearest thing, which no picture \
+                 of a world can show; put what is near into a layer of its own"
+            ))
+        })
     }
 
     /// Finds what the input lacks for the frames of a moving camera.

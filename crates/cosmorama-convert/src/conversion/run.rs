@@ -38,7 +38,7 @@ impl Checked {
         }
         let Self { job, settings, stages, diagnostics, start, content, .. } = self;
         let inputs: BTreeSet<PathBuf> = if content.has_files() {
-            job.outputs.frames.iter().flat_map(|frame| job.input.paths(frame.frame)).collect()
+            job.outputs.frames.iter().flat_map(|frame| job.paths(frame.frame)).collect()
         } else {
             BTreeSet::from([PathBuf::from(&settings.input)])
         };
@@ -83,6 +83,7 @@ impl Checked {
         };
         let mut told = engine.told();
         told.extend(run.tally.warnings(job));
+        told.extend(engine.tallied_behind());
         // Maps of light are measured by frame.
         let output = settings.output.as_str();
         if job.lighting.is_none() {

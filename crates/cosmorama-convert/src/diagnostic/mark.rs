@@ -5,8 +5,9 @@ use std::fmt::{Display, Formatter, Result, Write};
 
 use super::Setting;
 
-/// First mark, a noncharacter of Unicode, which no readable text contains. One mark for each setting follows.
-const FIRST: u32 = 0xfdd0;
+/// First mark, a character at the end of Unicode's last private plane, which no readable text contains. One mark for each
+/// setting follows.
+const FIRST: u32 = 0x10_ff00;
 
 /// Formats a setting as its mark.
 #[derive(Clone, Copy, Debug)]

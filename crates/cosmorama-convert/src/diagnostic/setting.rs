@@ -40,8 +40,14 @@ settings! {
     Roll "roll" ROLL,
     /// Path of the output's camera.
     Path "path" PATH,
+    /// Path of the input.
+    InPath "in-path" IN_PATH,
     /// Field of view that changes.
     Fov "fov" FOV,
+    /// Distance of the camera from the place where the world was made.
+    Travel "travel" TRAVEL,
+    /// Distance of the nearest thing in the world.
+    Nearest "nearest" NEAREST,
     /// Time for which a shutter is open.
     Shutter "shutter" SHUTTER,
     /// Method of motion blur.
@@ -84,6 +90,12 @@ settings! {
     Background "background" BACKGROUND,
     /// Treatment of directions that no view covers.
     Missing "missing" MISSING,
+    /// World behind the input's alpha.
+    Backdrop "backdrop" BACKDROP,
+    /// Projection of the backdrop.
+    BackdropFrom "backdrop-from" BACKDROP_FROM,
+    /// Frame of the backdrop for each frame.
+    BackdropFrames "backdrop-frames" BACKDROP_FRAMES,
     /// Frames of a sequence.
     Frames "frames" FRAMES,
     /// Whether existing outputs are replaced.

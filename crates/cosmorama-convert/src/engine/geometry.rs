@@ -43,7 +43,7 @@ impl Geometry {
     ) -> Result<(Self, Vec<Diagnostic>), Stopped> {
         let mut warnings = Vec::new();
         let arithmetic = arithmetic(job);
-        if job.lighting.is_some() {
+        if job.lighting.is_some() || job.formula.is_some() {
             let plans = views.iter().map(|_| None).collect();
             return Ok((Self { plans, arithmetic, balance: Balance::of((job, views), Vec::new(), &[]) }, warnings));
         }
@@ -171,6 +171,8 @@ pub(crate) fn codec(job: &ConvertJob) -> Option<FixedCodec> {
         && light.channels == Channels::Rgb
         && light.depth == Depth::Eight
         && light.background.alpha() >= 1.0
+        && job.backdrop.is_none()
+        && job.opacity >= 1.0
         && matches!(job.coverage, Coverage::Complete)
         && job.input.present().all(|(_, header, _)| {
             let colours = light.colours(header.channels, header.depth, &header.metadata);

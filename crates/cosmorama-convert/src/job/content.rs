@@ -54,21 +54,27 @@ impl Content {
         matches!(self, Self::World | Self::StMap)
     }
 
-    /// Finds and probes the input's files, if there are any.
+    /// Returns the formula, if that is the source.
+    pub(crate) fn formula(self) -> Option<BuiltinWorld> {
+        if let Self::Formula(world) = self { Some(world) } else { None }
+    }
+
+    /// Finds and probes the input's files, if there are any. There may be frames behind it.
     pub(crate) fn input(
         self,
-        settings: &Conversion,
+        (settings, has_frames_behind): (&Conversion, bool),
         geometry: &GeometrySettings,
         access: Access,
         warnings: &mut Vec<Diagnostic>,
     ) -> Result<Input> {
+        let moves = geometry.camera.is_some() || geometry.in_path.is_some();
         if self.has_files() {
-            // A still under a moving camera has the camera's frames.
-            let is_still = geometry.camera.is_some() && !Input::may_be_sequence(&settings.input);
+            // A still under a moving camera has the camera's frames, and one before a sequence has that one's.
+            let is_still = (moves || has_frames_behind) && !Input::may_be_sequence(&settings.input);
             let wanted = settings.frames.as_ref().filter(|_| !is_still);
             return Input::find(&settings.input, geometry.from.as_ref(), wanted, access, warnings);
         }
-        check_input_options(settings)?;
+        check_input_options(settings, moves)?;
         if filter(geometry, warnings) != FilterSettings::DEFAULT {
             let name = &settings.input;
             let message = format!("{FILTER}, {KERNEL} and {ANTI_RINGING} have no effect on {name}: a formula");
@@ -153,10 +159,10 @@ fn without_letters(target: &Target) -> Option<Diagnostic> {
 }
 
 /// Refuses settings about input files, which have no effect on a formula.
-fn check_input_options(settings: &Conversion) -> Result<()> {
+fn check_input_options(settings: &Conversion, moves: bool) -> Result<()> {
     let given: [(bool, Mark, &str); 7] = [
         (settings.geometry.from.is_some(), FROM, "it is a formula, with no projection of its own"),
-        (settings.frames.is_some() && settings.geometry.camera.is_none(), FRAMES, "it has none"),
+        (settings.frames.is_some() && !moves, FRAMES, "it has none"),
         (settings.in_transfer.is_some(), IN_TRANSFER, "it has no code values"),
         (settings.ocio.is_asked(), OCIO, "it has no code values; convert it to a picture first"),
         (settings.part.is_some(), PART, "it has none"),

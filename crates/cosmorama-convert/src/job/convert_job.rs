@@ -8,21 +8,23 @@ use cosmorama::motion::{Exposure, Moment, Pose};
 use cosmorama::raster::Rgba;
 use cosmorama::render::Resampler;
 use cosmorama::world::World;
-use cosmorama_io::{Choice, Format};
+use cosmorama_builtin::BuiltinWorld;
+use cosmorama_io::{Choice, Format, FrameList};
 use cosmorama_spec::Missing;
 
 use super::Content;
+use super::backdrop::{FoundBackdrop, Front};
 use super::gaps::Shot;
 use super::memory_needs::gathered_bytes;
 use super::options::{check_file_options, filter};
 use crate::colour::{LayerPlan, Light, check_choice, check_labels, check_light};
 use crate::detect::unless_damaged;
-use crate::diagnostic::{Code, Diagnostic, MOTION, PATH, Result, SCALE, SHUTTER, YAW, usage};
+use crate::diagnostic::{Code, Diagnostic, IN_PATH, MISSING, MOTION, PATH, Result, SCALE, SHUTTER, YAW, usage};
 use crate::input::Input;
 use crate::input::spec_files::st_map::settled;
 use crate::job::Outputs;
 use crate::job::coverage::{Coverage, whole_worlds};
-use crate::settings::{BlurMethod, CameraMovement, Conversion, GeometrySettings, LightScale, LightSettings};
+use crate::settings::{BlurMethod, Conversion, GeometrySettings, LightScale, LightSettings};
 use crate::source::{Access, ChosenFiles, DecodedPicture, Files, MemoryBudget};
 use crate::target::{Movement, Target, TargetView, name_of_level, of_light, shape_warning, time, whole_chain};
 
@@ -36,7 +38,7 @@ pub(crate) struct ConvertJob {
     pub(crate) worlds: Vec<World>,
     /// Pictures to make.
     pub(crate) target: Target,
-    /// Movement of their camera.
+    /// Movement of their camera, and of the input.
     pub(crate) movement: Option<Movement>,
     /// Whether a shutter blurs some frame, so that light is summed.
     pub(crate) is_blurred: bool,
@@ -52,8 +54,14 @@ pub(crate) struct ConvertJob {
     pub(crate) coverage: Coverage,
     /// Map of light that is made instead of a picture.
     pub(crate) lighting: Option<LightSettings>,
+    /// Formula that stands for files, of a backdrop.
+    pub(crate) formula: Option<BuiltinWorld>,
+    /// World behind the input.
+    pub(crate) backdrop: Option<Box<ConvertJob>>,
+    /// Factor of the input's light and its alpha.
+    pub(crate) opacity: f32,
     /// Requested treatment of directions without light.
-    missing: Missing,
+    pub(super) missing: Missing,
     /// Memory budget.
     pub(crate) memory: MemoryBudget,
     /// A picture that has been decoded to see what it is.
@@ -73,7 +81,7 @@ pub(crate) enum Purpose {
 const LIGHT: Format = Format::Exr;
 
 /// Part of the memory, at most, that a picture decoded beforehand takes.
-const DECODED_PART: u64 = 8;
+pub(super) const DECODED_PART: u64 = 8;
 
 /// Returns the source of a conversion's files, which knows the parts and channels to read.
 fn chosen(settings: &Conversion, content: Content) -> Arc<dyn Files> {
@@ -83,7 +91,7 @@ fn chosen(settings: &Conversion, content: Content) -> Arc<dyn Files> {
     Arc::new(ChosenFiles { files: Arc::clone(&settings.files), choice: Choice { part, channels, without_picture } })
 }
 
-/// Resolves the movement of the camera, which gives a still input its frames.
+/// Resolves the movement of the camera and of the input, which gives a still input its frames.
 fn move_camera(
     settings: &Conversion,
     geometry: &GeometrySettings,
@@ -91,8 +99,8 @@ fn move_camera(
     access: Access,
     warnings: &mut Vec<Diagnostic>,
 ) -> Result<Option<Movement>> {
-    if settings.light.is_some() && geometry.camera.is_some() {
-        return Err(usage(format!("maps of light have no camera that could move; leave {PATH} out")));
+    if settings.light.is_some() && (geometry.camera.is_some() || geometry.in_path.is_some()) {
+        return Err(usage(format!("maps of light have no camera that could move; leave {PATH} and {IN_PATH} out")));
     }
     let frames = (&input.frames[..], settings.frames.as_ref());
     let Some((movement, frames)) = Movement::resolve(geometry, &target.views, frames, access, warnings)? else {
@@ -103,9 +111,7 @@ fn move_camera(
         return Ok(None);
     };
     input.frames = frames;
-    if let Some(CameraMovement::Path { file, .. }) = &geometry.camera {
-        input.beside.push(file.into());
-    }
+    input.beside.extend(geometry.pose_files());
     Ok(Some(movement))
 }
 
@@ -135,7 +141,13 @@ impl ConvertJob {
             Purpose::Light => LIGHT,
         };
         check_file_options(settings, format)?;
-        let mut input = content.input(settings, geometry, access, warnings)?;
+        let mut backdrop = FoundBackdrop::find(settings, (content, geometry), memory, warnings)?;
+        let frames_behind = backdrop.as_ref().map_or_else(Vec::new, |found| found.frames().to_vec());
+        let mut input = content.input((settings, !frames_behind.is_empty()), geometry, access, warnings)?;
+        if input.frames == [None] && !frames_behind.is_empty() {
+            let wanted = |frames: &FrameList| frames.frames().iter().copied().map(Some).collect();
+            input.frames = settings.frames.as_ref().map_or(frames_behind, wanted);
+        }
         let parity = content.has_files().then(|| input.pixels_per_radian());
         let mut target = match purpose {
             Purpose::Pictures => Target::resolve(&output, geometry, parity)?,
@@ -161,7 +173,27 @@ impl ConvertJob {
             // The mirror level of a chain must keep the light of suns.
             filter = FilterSettings { kernel: Kernel::LIGHT, anti_ringing: false, ..filter };
         }
-        let mut light = Light::resolve(settings, &input, &target, warnings)?;
+        // What nothing of the input covers shows the backdrop.
+        let in_front = Missing::Fill(Rgba::TRANSPARENT);
+        let mut memory = memory;
+        let backdrop = match backdrop.take() {
+            None => None,
+            Some(found) => {
+                let frames = &input.frames[..];
+                let (movement, filter) = (movement.as_ref(), filter);
+                let own = memory.beside_frame(&input, &target);
+                let job = found.resolve(&Front { frames, target: &target, movement, filter, memory: own }, warnings)?;
+                input.beside.extend(job.input.files());
+                Some(job)
+            }
+        };
+        let behind = backdrop.as_ref().map(|job| &job.light);
+        let mut light = Light::resolve(settings, &input, &target, behind, warnings)?;
+        let backdrop = backdrop.map(|job| {
+            let (job, left) = job.lie_behind(&light).share(memory);
+            memory = left;
+            Box::new(job)
+        });
         let layers = if content == Content::World && settings.light.is_none() {
             LayerPlan::resolve(settings, (&input, &target, &light), &mut filter, warnings)?
         } else {
@@ -171,6 +203,12 @@ impl ConvertJob {
             check_light(&input, "this needs")?;
         }
         check_labels(&filter, &input, (&light, target.format), warnings)?;
+        if let (Missing::Continue(_), FilterKind::Labels(_)) = (settings.missing, filter.kind) {
+            return Err(usage(format!(
+                "{MISSING} {} would mix labels; give a colour or transparent",
+                settings.missing
+            )));
+        }
         content.settle(settings, &target, &mut light, warnings)?;
         memory.check_outputs(&target)?;
         let outputs = match purpose {
@@ -185,8 +223,9 @@ impl ConvertJob {
             )));
         }
         let missing = match settings.missing {
+            _ if backdrop.is_some() => in_front,
             Missing::Fill(colour) => Missing::Fill(light.colour(colour)?),
-            Missing::Error => Missing::Error,
+            other => other,
         };
         let mut job = Self {
             files,
@@ -201,6 +240,9 @@ impl ConvertJob {
             outputs,
             coverage: Coverage::Complete,
             lighting,
+            formula: None,
+            backdrop,
+            opacity: settings.opacity,
             missing,
             memory,
             decoded,
@@ -208,17 +250,18 @@ impl ConvertJob {
         if content.has_files() {
             let first = job.input.frames.first().map_or_else(Vec::new, |frame| job.input.paths(*frame));
             let files = Arc::clone(&job.files);
-            job.cover(warnings).map_err(|error| unless_damaged(&*files, first, error))?;
+            let frames = job.input.frames.clone();
+            job.cover(&frames, warnings).map_err(|error| unless_damaged(&*files, first, error))?;
         }
         job.find_blur(content, warnings)?;
         content.check_last(settings, format, job.light.depth, warnings)?;
         Ok(job)
     }
 
-    /// Checks that the input covers the output, and that memory suffices.
-    fn cover(&mut self, warnings: &mut Vec<Diagnostic>) -> Result<()> {
+    /// Checks that the input covers the output in these frames, and that memory suffices.
+    pub(super) fn cover(&mut self, frames: &[Option<u64>], warnings: &mut Vec<Diagnostic>) -> Result<()> {
         let shots = match &self.movement {
-            Some(movement) => Shot::all(movement, &self.target.views, &self.input.frames)?,
+            Some(movement) => Shot::all(movement, &self.target.views, frames)?,
             None => vec![Shot { frames: Vec::new(), views: self.target.views.clone() }],
         };
         let Self { input, target, filter, memory, .. } = self;
@@ -271,7 +314,8 @@ impl ConvertJob {
             warnings.push(Diagnostic::warning(Code::NoEffect, message));
             return Ok(());
         }
-        if !content.has_files() && blur.method == BlurMethod::Ellipse {
+        let has_formula = self.backdrop.as_ref().is_some_and(|backdrop| backdrop.formula.is_some());
+        if (!content.has_files() || has_formula) && blur.method == BlurMethod::Ellipse {
             return Err(usage(format!("{MOTION} ellipse averages texels, but a formula has none; leave it out")));
         }
         for frame in self.input.frames.clone() {
@@ -290,23 +334,28 @@ impl ConvertJob {
 
     /// Returns the moments of a frame's exposure; `None` where nothing moves, or nothing is blurred.
     pub(crate) fn moments(&self, frame: Option<u64>) -> Result<Option<Vec<Moment>>> {
-        let Some((movement, blur)) = self.movement.as_ref().and_then(|movement| Some((movement, movement.blur?)))
-        else {
-            return Ok(None);
-        };
+        let Some(blur) = self.movement.as_ref().and_then(|movement| movement.blur) else { return Ok(None) };
         let frame = time(frame.unwrap_or_default());
-        let ends = movement.views_at(&self.target.views, &blur.shutter.division(frame))?;
+        let times = blur.shutter.division(frame);
+        let behind = self.backdrop.as_ref().map_or(Ok(0), |backdrop| backdrop.moments_needed(&times))?;
+        let count = match self.moments_needed(&times)?.max(behind) {
+            0 | 1 => return Ok(None),
+            _ if blur.method == BlurMethod::Ellipse => Exposure::FEW,
+            count => count,
+        };
+        Ok(Some(blur.shutter.moments(frame, count)))
+    }
+
+    /// Returns how many moments the fastest pixel needs, by the views at some times of an exposure.
+    fn moments_needed(&self, times: &[f64]) -> Result<usize> {
+        let Some(movement) = &self.movement else { return Ok(0) };
+        let ends = movement.views_at(&self.target.views, times)?;
         let needed = |(index, target): (usize, &TargetView)| {
             let views: Vec<View> = ends.iter().map(|views| views[index].view.clone()).collect();
             let texel = self.worlds.get(target.world(self.worlds.len())).map_or(0.0, World::texel_pitch);
             Exposure::moments_needed(&views, texel)
         };
-        let count = match self.target.views.iter().enumerate().map(needed).max() {
-            None | Some(0 | 1) => return Ok(None),
-            Some(_) if blur.method == BlurMethod::Ellipse => Exposure::FEW,
-            Some(count) => count,
-        };
-        Ok(Some(blur.shutter.moments(frame, count)))
+        Ok(self.target.views.iter().enumerate().map(needed).max().unwrap_or_default())
     }
 
     /// Returns the target's views at all moments of a frame's exposure, each with its part of the light; none where nothing is
@@ -318,6 +367,14 @@ impl ConvertJob {
             Ok((self.views_in(pose.as_ref())?, moment.weight as f32))
         };
         moments.iter().flatten().map(exposed).collect()
+    }
+
+    /// Returns the budgets of this backdrop and of the input before it: each has its own frame and half of what is left.
+    pub(super) fn share(mut self, all: MemoryBudget) -> (Self, MemoryBudget) {
+        let half = self.memory.beside_frame(&self.input, &self.target).bytes / 2;
+        self.memory = self.memory.beside(half);
+        let left = all.beside(self.memory.bytes);
+        (self, left)
     }
 
     /// Returns the resampler for one of the target's views.
@@ -333,7 +390,7 @@ impl ConvertJob {
     /// Returns the fill colour of pixels without light; `None` if they are an error.
     pub(crate) fn fill_for_missing(&self) -> Option<Rgba> {
         match self.missing {
-            Missing::Error => None,
+            Missing::Error | Missing::Continue(_) => None,
             Missing::Fill(colour) => Some(colour),
         }
     }

@@ -1,11 +1,12 @@
 use cosmorama::filter::FilterSettings;
 use cosmorama::raster::Rgba;
+use cosmorama::render::Beyond;
 use cosmorama::sphere::Direction;
 use cosmorama::world::{Source, World, WorldView};
 use cosmorama_spec::{Missing, Size};
 
 use super::gaps::{Shot, empty, find_gaps};
-use crate::diagnostic::{Code, Diagnostic, MISSING, Result, bail, failed_as};
+use crate::diagnostic::{Code, Diagnostic, MISSING, Result, bail, failed_as, usage};
 use crate::input::{Input, InputView};
 use crate::source::MemoryBudget;
 
@@ -16,6 +17,8 @@ pub(crate) enum Coverage {
     Complete,
     /// Such pixels are filled with a colour.
     Fill(Rgba),
+    /// Such pixels are filled with what stands beyond the edge of the world.
+    Continue(Beyond),
 }
 
 /// Returns the worlds of whole pictures, even if files are missing: one, or one for each eye.
@@ -57,6 +60,7 @@ impl Coverage {
         let coverage = match missing {
             _ if gaps.is_empty() => Self::Complete,
             Missing::Fill(colour) => Self::Fill(colour),
+            Missing::Continue(beyond) => Self::Continue(beyond),
             Missing::Error => bail!(
                 Uncovered: "the input does not cover what the output shows:\n  {}\nadd what is missing, or fill it with {MISSING} \
                  COLOR or {MISSING} transparent",
@@ -85,6 +89,9 @@ impl Coverage {
         match missing {
             _ if gaps.is_empty() => Ok((Self::Complete, worlds)),
             Missing::Fill(colour) => Ok((Self::Fill(colour), worlds)),
+            Missing::Continue(_) => {
+                Err(usage(format!("{MISSING} mirror and stretch are for pictures; give a colour, as {MISSING} black")))
+            }
             Missing::Error => bail!(
                 Uncovered: "light comes from all sides, but the input does not show all:\n  {}\nadd what is missing, or fill it \
                  with {MISSING} COLOR, as {MISSING} black, or {MISSING} transparent",

@@ -56,6 +56,11 @@ impl MemoryBudget {
         self.allow(frame_bytes(input, target), "a frame", &(largest + &describe(target, ", and ")))
     }
 
+    /// Returns the budget that is left beside a frame.
+    pub(crate) fn beside_frame(self, input: &Input, target: &Target) -> Self {
+        self.beside(frame_bytes(input, target))
+    }
+
     /// Returns the budget that is left beside the levels of pyramids, which frames make one after the other. It is an
     /// error if a frame and its levels do not fit.
     pub(crate) fn beside_levels(self, levels: u64, input: &Input, target: &Target) -> Result<Self> {

@@ -1,5 +1,6 @@
 //! A conversion resolved against its files: content, coverage, outputs, and those of them that are still to be made.
 
+mod backdrop;
 mod content;
 mod convert_job;
 pub(crate) mod coverage;

@@ -2,19 +2,25 @@ use std::path::Path;
 
 use cosmorama::camera::Placement;
 use cosmorama::motion::{Key, Pose, Track, Turn};
-use cosmorama_io::{CameraPath, FrameList, PathPose};
+use cosmorama::sphere::Orientation;
+use cosmorama_io::{CameraPath, FrameList, PathPose, PathSource};
 use cosmorama_spec::{Shape, Spec};
 
 use crate::diagnostic::{
-    Code, Diagnostic, FOV, FRAMES, PATH, Result, TO, failed_as, failure, of_opening, usage, usage_as,
+    Code, Diagnostic, FOV, FRAMES, FROM, IN_PATH, Mark, PATH, Result, Setting, TO, failed_as, failure, of_opening,
+    usage, usage_as,
 };
-use crate::settings::{CameraMovement, GeometrySettings, MotionBlur};
+use crate::settings::{CameraMovement, GeometrySettings, MotionBlur, PoseFile};
 use crate::source::Access;
 use crate::target::TargetView;
 
-/// Movement of the target's camera: its views are a function of time, in frames.
+/// Movement of the target's camera in the input, either of which may move: views are a function of time, in frames.
+#[derive(Clone)]
 pub(crate) struct Movement {
-    course: Course,
+    /// Poses of the camera; `None` where it stands still.
+    camera: Option<Course>,
+    /// Poses of the input; `None` where it stands still.
+    input: Option<Track>,
     /// The only view's place before it is turned, where its field of view changes.
     zoom: Option<Placement>,
     /// Blur of what moves.
@@ -22,6 +28,7 @@ pub(crate) struct Movement {
 }
 
 /// Poses by time.
+#[derive(Clone)]
 enum Course {
     Track(Track),
     Turn(Turn),
@@ -40,44 +47,59 @@ impl Movement {
         access: Access,
         warnings: &mut Vec<Diagnostic>,
     ) -> Result<Option<(Self, Vec<Option<u64>>)>> {
-        let Some(camera) = &geometry.camera else { return Ok(None) };
-        let sequence: Vec<u64> = match (frames, wanted) {
+        if geometry.camera.is_none() && geometry.in_path.is_none() {
+            return Ok(None);
+        }
+        let mut sequence: Vec<u64> = match (frames, wanted) {
             (&[None], Some(wanted)) => wanted.frames().to_vec(),
             _ => frames.iter().copied().flatten().collect(),
         };
-        let (course, sequence) = match camera {
-            CameraMovement::Path { file, fps, smoothness } => {
-                let path = read(file, *fps, access, warnings)?;
-                let track = Track::new(path.poses.iter().map(key).collect(), *smoothness)
-                    .map_err(|error| failure!(Malformed: "{PATH} {file}: {error}"))?;
-                let sequence = frames_of(file, &track, sequence)?;
-                (Course::Track(track), sequence)
+        let camera = match &geometry.camera {
+            None => None,
+            Some(CameraMovement::Path(path)) => {
+                let track = track((PATH, path), access, warnings)?;
+                sequence = frames_of((PATH, path), &track, sequence)?;
+                Some(Course::Track(track))
             }
-            CameraMovement::Turn { angles, fov, easing } => {
-                let (Some(&first), Some(&last)) = (sequence.iter().min(), sequence.iter().max()) else {
-                    return Err(usage_as(
-                        Code::MissingSetting,
-                        format!("{FRAMES} is missing: say over which frames the camera turns, as in {FRAMES} 1-240"),
-                    ));
-                };
-                let turn = Turn { angles: *angles, fov: *fov, times: [first, last].map(time), easing: *easing };
-                (Course::Turn(turn), sequence)
+            Some(CameraMovement::Turn { angles, fov, easing }) => {
+                let turn = Turn { angles: *angles, fov: *fov, times: ends(&sequence)?, easing: *easing };
+                Some(Course::Turn(turn))
             }
         };
-        let mut movement = Self { course, zoom: None, blur: geometry.blur };
-        if sequence.first().is_some_and(|frame| movement.pose(time(*frame)).fov.is_some()) {
+        let mut input = None;
+        if let Some(path) = &geometry.in_path {
+            let track = track((IN_PATH, path), access, warnings)?;
+            sequence = frames_of((IN_PATH, path), &track, sequence)?;
+            check_no_zoom(path, &track)?;
+            input = Some(track);
+        }
+        let mut movement = Self { camera, input, zoom: None, blur: geometry.blur };
+        let zooms = sequence.first().is_some_and(|frame| movement.pose(time(*frame)).fov.is_some());
+        if let (true, Some(camera)) = (zooms, &geometry.camera) {
             movement.zoom = Some(placement(geometry, targets, camera)?);
         }
         let frames = sequence.into_iter().map(Some).collect();
         Ok(Some((movement, frames)))
     }
 
-    /// Returns the pose at a time, in frames.
+    /// Returns the movement of the camera before an input that stands still; `None` if nothing moves there.
+    pub(crate) fn of_camera(&self) -> Option<Self> {
+        self.camera.is_some().then(|| Self { input: None, ..self.clone() })
+    }
+
+    /// Returns the camera's pose in the input at a time, in frames.
     pub(crate) fn pose(&self, time: f64) -> Pose {
-        match &self.course {
-            Course::Track(track) => track.pose(time),
-            Course::Turn(turn) => turn.pose(time),
-        }
+        let camera = match &self.camera {
+            None => Pose::of(Orientation::IDENTITY),
+            Some(Course::Track(track)) => track.pose(time),
+            Some(Course::Turn(turn)) => turn.pose(time),
+        };
+        let Some(input) = &self.input else { return camera };
+        let input = input.pose(time).orientation;
+        // Where both go together, nothing moves, not even by a rounding error.
+        let together = input == camera.orientation;
+        let orientation = if together { Orientation::IDENTITY } else { camera.orientation.within(input.inverse()) };
+        Pose { orientation, ..camera }
     }
 
     /// Returns the target's views at several times.
@@ -103,6 +125,28 @@ impl Movement {
     }
 }
 
+/// Returns the times of the first and the last frame of a turn.
+fn ends(sequence: &[u64]) -> Result<[f64; 2]> {
+    match (sequence.iter().min(), sequence.iter().max()) {
+        (Some(&first), Some(&last)) => Ok([first, last].map(time)),
+        _ => Err(usage_as(
+            Code::MissingSetting,
+            format!("{FRAMES} is missing: say over which frames the camera turns, as in {FRAMES} 1-240"),
+        )),
+    }
+}
+
+/// Refuses poses of the input that have a field of view.
+fn check_no_zoom(path: &PoseFile, track: &Track) -> Result<()> {
+    if track.pose(track.range()[0]).fov.is_none() {
+        return Ok(());
+    }
+    let file = &path.file;
+    Err(usage(format!(
+        "{IN_PATH} {file} has fov, but the input's field of view is that of {FROM}; leave the column out"
+    )))
+}
+
 /// Returns the time of a frame.
 pub(crate) fn time(frame: u64) -> f64 {
     frame as f64
@@ -112,34 +156,44 @@ fn key(pose: &PathPose) -> Key {
     Key { time: pose.frame, pose: Pose { orientation: pose.orientation, fov: pose.fov } }
 }
 
-/// Reads a path, and tells what of it is ignored.
-fn read(file: &str, fps: Option<f64>, access: Access, warnings: &mut Vec<Diagnostic>) -> Result<CameraPath> {
-    let name = Path::new(file);
-    let bytes = access
-        .read_bytes(name)
-        .map_err(|error| failed_as(of_opening(&error), format!("cannot open {PATH} {file}: {error}")))?;
-    let path = CameraPath::parse(&bytes, name, fps)?;
+/// Reads the poses of a file, and tells what of it is ignored.
+fn track(
+    (setting, PoseFile { file, fps, smoothness }): (Mark, &PoseFile),
+    access: Access,
+    warnings: &mut Vec<Diagnostic>,
+) -> Result<Track> {
+    let (named, node) = CameraPath::split_node(file);
+    let name = Path::new(named);
+    let beside = |path: &Path| access.read_bytes(path);
+    let bytes = beside(name)
+        .map_err(|error| failed_as(of_opening(&error), format!("cannot open {setting} {named}: {error}")))?;
+    let is_of_input = setting.0 == Setting::InPath;
+    let path = CameraPath::read(&bytes, &PathSource { name, fps: *fps, node, is_of_input, beside: &beside })?;
     let mut remarks: Vec<String> = path.remarks.iter().map(|remark| format!("{file}: {remark}")).collect();
     if !path.ignored.is_empty() {
         remarks.push(format!("{file}: of no meaning here, and ignored: {}", path.ignored.join(", ")));
     }
-    warnings.extend(remarks.into_iter().map(|text| Diagnostic::warning(Code::CameraPath, text).about(file)));
-    Ok(path)
+    let told = remarks.into_iter().map(|text| Diagnostic::warning(Code::CameraPath, text).about(file));
+    // One file may be the path of the camera and of the input.
+    let new: Vec<Diagnostic> = told.filter(|told| !warnings.contains(told)).collect();
+    warnings.extend(new);
+    Track::new(path.poses.iter().map(key).collect(), *smoothness)
+        .map_err(|error| failure!(Malformed: "{setting} {file}: {error}"))
 }
 
 /// Returns the frames to make: those of a sequence, all of which need poses, or else all of the path.
-fn frames_of(file: &str, track: &Track, sequence: Vec<u64>) -> Result<Vec<u64>> {
-    let [first, last] = track.range();
+fn frames_of((setting, path): (Mark, &PoseFile), track: &Track, sequence: Vec<u64>) -> Result<Vec<u64>> {
+    let ([first, last], file) = (track.range(), &path.file);
     if sequence.is_empty() {
         let (from, to) = (first.max(0.0).ceil(), last.floor());
         if from > to {
             return Err(usage(format!(
-                "{PATH} {file} has poses from frame {first} to {last}, and no whole frame between; choose frames with {FRAMES}"
+                "{setting} {file} has poses from frame {first} to {last}, and no whole frame between; choose frames with {FRAMES}"
             )));
         }
         if to - from >= MOST_FRAMES {
             return Err(usage(format!(
-                "{PATH} {file} has poses from frame {first} to {last}, which are too many; choose frames with {FRAMES}"
+                "{setting} {file} has poses from frame {first} to {last}, which are too many; choose frames with {FRAMES}"
             )));
         }
         return Ok((from as u64..=to as u64).collect());
@@ -150,7 +204,7 @@ fn frames_of(file: &str, track: &Track, sequence: Vec<u64>) -> Result<Vec<u64>> 
     }
     let count = without.len();
     Err(usage(format!(
-        "{PATH} {file} has poses from frame {first} to {last}, but none for {} {}; add poses, or choose frames with {FRAMES}",
+        "{setting} {file} has poses from frame {first} to {last}, but none for {} {}; add poses, or choose frames with {FRAMES}",
         if count == 1 { "frame" } else { "frames" },
         FrameList::new(without)
     )))
@@ -168,7 +222,7 @@ fn placement(geometry: &GeometrySettings, targets: &[TargetView], camera: &Camer
     let Some(placement) = zoomed else {
         let name = geometry.to.as_ref().map_or("cube", |spec| spec.name);
         let remedy = match camera {
-            CameraMovement::Path { file, .. } => format!("{PATH} {file} has fov, which may stay out"),
+            CameraMovement::Path(PoseFile { file, .. }) => format!("{PATH} {file} has fov, which may stay out"),
             CameraMovement::Turn { .. } => format!("leave {FOV} out"),
         };
         return Err(usage(format!(

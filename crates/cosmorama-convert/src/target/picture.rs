@@ -4,7 +4,7 @@ use cosmorama::sphere::CubeFace;
 use cosmorama_io::{EnvMap, Format, Naming, Window};
 use cosmorama_spec::{Cube, Dual, Packing, Shape, Single, Size, SphereSamples, StereoSpec};
 
-use crate::diagnostic::{ConvertError, Result, SIZE, TO, usage};
+use crate::diagnostic::{Code, ConvertError, Result, SIZE, TO, usage, usage_as};
 use crate::packing::canvas::lies_on_canvas;
 use crate::packing::eye::{eye_size, squeezed};
 use crate::packing::face_view::face_placement;
@@ -32,6 +32,9 @@ pub struct Picture {
     /// Whole panorama of which it is a part, or all.
     pub panorama: Option<Window>,
 }
+
+/// Width of a picture whose size is not known.
+const PLANNED: usize = 1024;
 
 impl Picture {
     /// Returns the images for `--to`, `--size` and the orientation, in one file of a format or in files of their own.
@@ -70,6 +73,21 @@ impl Picture {
         let eye = self.eye.map(|eye| format!("{}-eye", eye.name()));
         let parts: Vec<String> = eye.into_iter().chain(self.part.map(str::to_owned)).collect();
         (!parts.is_empty()).then(|| parts.join("-"))
+    }
+
+    /// Returns the pictures of an output that may have no size yet: then they are 1024 pixels wide.
+    ///
+    /// # Errors
+    /// When there is no projection, or it makes no picture.
+    pub fn planned(geometry: &GeometrySettings) -> Result<Vec<Self>> {
+        if geometry.to.is_none() {
+            return Err(usage_as(
+                Code::MissingSetting,
+                format!("{TO} is missing: say whose pictures they are, as in {TO} cube:half=up"),
+            ));
+        }
+        let size = geometry.size.or(Some(Size { width: PLANNED, height: None }));
+        Self::all(&GeometrySettings { size, ..geometry.clone() }, None, None)
     }
 
     /// Returns the index of the world that it shows, among so many.

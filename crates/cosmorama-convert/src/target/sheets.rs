@@ -33,6 +33,7 @@ impl TargetView {
 }
 
 /// A file to make.
+#[derive(Clone)]
 pub(crate) struct TargetFile {
     /// Name, by frame.
     pub(crate) files: ViewFiles,
@@ -43,6 +44,7 @@ pub(crate) struct TargetFile {
 }
 
 /// A picture of one image, or of several images laid into it.
+#[derive(Clone)]
 pub(crate) struct Sheet {
     /// Columns and rows.
     pub(crate) size: (usize, usize),
@@ -58,6 +60,7 @@ impl TargetFile {
 }
 
 /// Everything that a conversion makes for a frame.
+#[derive(Clone)]
 pub(crate) struct Target {
     /// Images of a frame: one, or the faces of a cube.
     pub(crate) views: Vec<TargetView>,

@@ -6,7 +6,7 @@ mod frame_list;
 mod frame_pattern;
 mod frames;
 
-pub use camera_path::{CameraPath, CameraPathError, PathPose};
+pub use camera_path::{CameraPath, CameraPathError, PathPose, PathSource};
 pub use found_frames::FoundFrames;
 pub use frame_list::FrameList;
 pub use frame_pattern::FramePattern;

@@ -1,5 +1,6 @@
+use super::path::figure;
 use super::unfolded::Underlay;
-use super::{footprints, ownership, path_figure, unfolded};
+use super::{footprints, ownership, unfolded};
 use crate::camera::View;
 use crate::render::Needs;
 use crate::world::World;
@@ -27,7 +28,7 @@ impl Figures<'_> {
     /// Draws the path of a camera over the unfolded world, from the views of all its frames. Bright is what some frame sees; dots
     /// are the middles of frames.
     pub fn path(world: &World, frames: &[Vec<View>]) -> String {
-        path_figure::draw(world, frames)
+        figure::draw(world, frames)
     }
 
     /// Draws figure 4: which view gives which pixel of the target, with the edges of views as curves.

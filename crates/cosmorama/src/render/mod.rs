@@ -27,6 +27,7 @@ pub use picture::picture;
 pub use plan::{Arithmetic, Plan};
 pub use progress::{Progress, Share, Stopped};
 pub(crate) use pyramid::{Pyramid, TexelCount};
+pub use required::continuation::{Beyond, Continuation};
 pub use required::need::{Accuracy, Need, Needs};
 pub use required::require::MissingLight;
 pub use required::screen_mask::ScreenMask;

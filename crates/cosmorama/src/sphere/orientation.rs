@@ -83,6 +83,12 @@ impl Orientation {
         DQuat::from_mat3(&self.world_from_view)
     }
 
+    /// Returns the orientation that undoes this one.
+    #[must_use]
+    pub fn inverse(self) -> Self {
+        Self { world_from_view: self.world_from_view.transpose() }
+    }
+
     /// Returns this orientation as seen from a frame that is itself turned by `outer`.
     pub fn within(self, outer: Self) -> Self {
         Self { world_from_view: outer.world_from_view * self.world_from_view }

@@ -30,6 +30,11 @@ pub(crate) fn zoom(text: &str) -> Result<Ramp, String> {
     })
 }
 
+/// Parses a distance: a number not less than zero.
+pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
+    finite(text).ok().filter(|number| *number >= 0.0).ok_or_else(|| "expected a number, 0 or more".to_owned())
+}
+
 /// Parses a rate: a number more than zero.
 pub(crate) fn positive(text: &str) -> Result<f64, String> {
     finite(text).ok().filter(|number| *number > 0.0).ok_or_else(|| "expected a number more than 0".to_owned())

@@ -314,3 +314,75 @@ fn explain_tells_what_a_path_sees_before_it_is_rendered() {
     let message = bench.fail(2, &[&["explain", "face_{face}.png"], &to[..], &["--yaw", "0..360"]].concat());
     assert_says(&message, &["--frames is missing"]);
 }
+
+/// Writes a scene in which a camera turns to the left by 60° over 12 frames of 24 a second.
+fn scene(bench: &Bench) {
+    let (sin, cos) = 30_f32.to_radians().sin_cos();
+    let numbers: [f32; 10] = [0.0, 0.5, 0.0, 0.0, 0.0, 1.0, 0.0, sin, 0.0, cos];
+    std::fs::write(bench.path("scene.bin"), numbers.iter().flat_map(|n| n.to_le_bytes()).collect::<Vec<u8>>()).unwrap();
+    let json = r#"{"asset":{"version":"2.0"},"buffers":[{"byteLength":40,"uri":"scene.bin"}],
+        "bufferViews":[{"buffer":0,"byteLength":40}],
+        "accessors":[{"bufferView":0,"componentType":5126,"count":2,"type":"SCALAR","min":[0],"max":[0.5]},
+        {"bufferView":0,"byteOffset":8,"componentType":5126,"count":2,"type":"VEC4"}],
+        "cameras":[{"type":"perspective","perspective":{"yfov":0.8,"znear":0.1}}],
+        "nodes":[{"name":"Shot","camera":0},{"name":"Rest","camera":0}],"scenes":[{"nodes":[0,1]}],
+        "animations":[{"samplers":[{"input":0,"output":1}],
+        "channels":[{"sampler":0,"target":{"node":0,"path":"rotation"}},{"sampler":0,"target":{"node":0,"path":"translation"}}]}]}"#;
+    std::fs::write(bench.path("scene.gltf"), json).unwrap();
+}
+
+#[test]
+fn a_camera_of_a_scene_is_a_path() {
+    let bench = bench_with(PATH);
+    scene(&bench);
+    let to = ["--to", "perspective:fov=60", "--size", "48x32"];
+    let path = ["--path", "scene.gltf#Shot", "--fps", "24", "-y"];
+    bench.succeed(&[&["convert", "sky.png", "f_##.png"], &to[..], &path].concat());
+    bench.succeed(&[&["convert", "sky.png", "still.png", "--yaw", "-20"], &to[..]].concat());
+    assert!(bench.load("f_04.png") == bench.load("still.png") && bench.path("f_12.png").is_file());
+    let output = bench.run(&[&["convert", "sky.png", "f_##.png"], &to[..], &path].concat());
+    assert_says(&crate::bench::text(&output.stderr), &["Shot also goes from place to place"]);
+    std::fs::remove_file(bench.path("f_04.png")).unwrap();
+    let cases: [(i32, &[&str], &[&str]); 4] = [
+        (1, &["scene.gltf#Crane", "--fps", "24"], &["no camera or node Crane; there are Shot and Rest"]),
+        (1, &["scene.gltf#Rest", "--fps", "24"], &["nothing turns Rest"]),
+        (2, &["scene.gltf#Shot"], &["(fps) is needed"]),
+        (1, &["other.glb", "--fps", "24"], &["cannot open --path other.glb"]),
+    ];
+    for (code, args, parts) in cases {
+        let message = bench.fail(code, &[&["convert", "sky.png", "g_##.png", "--path"], args, &to[..]].concat());
+        assert_says(&message, parts);
+    }
+    std::fs::remove_file(bench.path("scene.bin")).unwrap();
+    let message = bench.fail(1, &[&["convert", "sky.png", "g_##.png"], &path[..4], &to[..]].concat());
+    assert_says(&message, &["cannot open its buffer scene.bin"]);
+}
+
+#[test]
+fn tables_of_gyroflow_are_paths() {
+    let bench = bench_with(PATH);
+    // The first pose looks down, as gyroscopes do that know no gravity; then it turns to its own right, by 10° each frame.
+    let row = |frame: i32| {
+        let turn =
+            Orientation::from_yaw_pitch_roll(Angle::from_degrees(10.0 * f64::from(frame)), Angle::ZERO, Angle::ZERO);
+        let down = Orientation::from_yaw_pitch_roll(
+            Angle::from_degrees(70.0),
+            Angle::from_degrees(-80.0),
+            Angle::from_degrees(5.0),
+        );
+        let [x, y, z, w] = turn.within(down).rotation().to_array();
+        let time = 1000.0 * f64::from(frame) / 25.0;
+        format!("{frame},{time:.3},0.1,{w:.6},{x:.6},{y:.6},{z:.6},{w:.6},{x:.6},{y:.6},{z:.6}\n")
+    };
+    let names = "frame,timestamp_ms,org_acc_x,org_quat_w,org_quat_x,org_quat_y,org_quat_z,stab_quat_w,stab_quat_x,stab_quat_y,stab_quat_z";
+    std::fs::write(bench.path("gyro.csv"), format!("{names}\n{}", (0..4).map(row).collect::<String>())).unwrap();
+    let to = ["--to", "perspective:fov=60", "--size", "48x32", "-y"];
+    for extra in [&[][..], &["--fps", "25"]] {
+        bench.succeed(&[&["convert", "sky.png", "f_#.png", "--path", "gyro.csv"], &to[..], extra].concat());
+        bench.succeed(&[&["convert", "sky.png", "still.png", "--yaw", "30"], &to[..]].concat());
+        let light = |name: &str| read(bench.path(name), &Limits::NONE).unwrap().to_light();
+        for (a, b) in light("still.png").pixels().iter().zip(light("f_3.png").pixels()) {
+            assert!((0..3).all(|c| (a.0[c] - b.0[c]).abs() < 0.005), "{extra:?}: {a:?}, not {b:?}");
+        }
+    }
+}

@@ -1,6 +1,6 @@
 //! The other verbs: `info`, `explain`, `compare`, `demo`.
 
-use crate::bench::{Bench, flat, picture};
+use crate::bench::{Bench, assert_says, flat, picture};
 use serde_json::Value;
 
 #[test]
@@ -161,5 +161,7 @@ fn the_demo_can_be_repeated() {
         assert!(told.contains(name) && bench.path(&format!("cosmorama-demo/{name}")).exists(), "{name}");
     }
     assert!(!bench.path("cosmorama-demo/faces/back.png").exists());
-    bench.succeed(&["demo"]);
+    let told = bench.succeed(&["demo", "--animation", "1"]);
+    assert_says(&told, &["the frames in", "--in-path", "--backdrop", "ffmpeg"]);
+    assert!(bench.path("cosmorama-demo/animation/frame_0001.png").exists());
 }

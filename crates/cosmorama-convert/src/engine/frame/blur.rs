@@ -6,14 +6,14 @@ use cosmorama::camera::View;
 use cosmorama::filter::Ewa;
 use cosmorama::motion::{Exposure, LightSum, Moment};
 use cosmorama::raster::{Image, Rgba};
-use cosmorama::render::{Progress, Share, Stopped};
+use cosmorama::render::{Progress, Share};
 
-use super::pictures::{Making, assemble_in};
+use super::pictures::{Layer, Making, assemble_in};
 use crate::diagnostic::{Result, bail};
-use crate::engine::{BalancedLight, Engine, FrameLight, Levels, Posed, Shares, Texels};
+use crate::engine::{Engine, FrameLight, Levels, Shares, Texels};
 use crate::job::FrameOutputs;
 use crate::settings::{BlurMethod, MotionBlur};
-use crate::target::{Movement, TargetView, time};
+use crate::target::time;
 
 impl Engine<'_> {
     /// Returns the moments of a frame's exposure; `None` where nothing is blurred.
@@ -34,30 +34,34 @@ impl Engine<'_> {
         progress: &dyn Progress,
     ) -> Result<Vec<Levels>> {
         let job = self.job;
-        let Some((movement, blur)) = job.movement.as_ref().and_then(|movement| Some((movement, movement.blur?))) else {
+        let Some(blur) = job.movement.as_ref().and_then(|movement| movement.blur) else {
             bail!("a camera without movement cannot blur")
         };
         let passes = job.layers.groups.len();
         let share = Share { whole: progress, from: 0.0, to: 1.0 / (1 + passes) as f64 };
         let pictures = match blur.method {
-            BlurMethod::Swept => self.swept(frame, (light, moments), movement, &share)?,
-            BlurMethod::Ellipse => self.ellipse(frame, (light, moments), (movement, blur), &share)?,
+            BlurMethod::Swept => self.swept(frame, (light, moments), &share)?,
+            BlurMethod::Ellipse => self.ellipse(frame, (light, moments), blur, &share)?,
         };
         if job.layers.is_plain() {
             return Ok(pictures);
         }
-        let posed = self.posed(frame, progress)?;
+        let layer = self.layer(frame, progress)?;
         let rest = Share { whole: progress, from: share.to, to: 1.0 };
-        let views = self.views_of(frame, &posed.views);
-        let shares = Shares::new(&rest, views.iter().copied().cycle().take(passes * views.len()));
-        let mut making = Making { posed: &posed, balanced: BalancedLight::default(), shares };
-        self.with_channels(frame, pictures, &mut making)
+        let shares = self.shares(&rest, frame, passes);
+        self.with_channels(frame, pictures, &mut Making { layer, shares })
+    }
+
+    /// Splits the progress of a frame whose views are made so many times.
+    fn shares<'p>(&self, progress: &'p dyn Progress, frame: &FrameOutputs, times: usize) -> Shares<'p> {
+        let views = self.views_of(frame);
+        Shares::new(progress, views.iter().copied().cycle().take(times * views.len()))
     }
 
     /// Returns the views of a frame's files, in the order in which they are made.
-    fn views_of<'v>(&self, frame: &FrameOutputs, views: &'v [TargetView]) -> Vec<&'v View> {
+    fn views_of(&self, frame: &FrameOutputs) -> Vec<&View> {
         let sheets = frame.files.iter().flat_map(|(file, _)| self.job.target.files[*file].levels());
-        sheets.flat_map(|sheet| &sheet.pieces).map(|(index, _)| &views[*index].view).collect()
+        sheets.flat_map(|sheet| &sheet.pieces).map(|(index, _)| &self.job.target.views[*index].view).collect()
     }
 
     /// Sums the pictures of all moments, each weighed by its part of the light: every pixel goes its own way.
@@ -65,21 +69,14 @@ impl Engine<'_> {
         &self,
         frame: &FrameOutputs,
         (light, moments): (&FrameLight, &[Moment]),
-        movement: &Movement,
         progress: &dyn Progress,
     ) -> Result<Vec<Levels>> {
         let mut sums: Vec<Vec<LightSum>> = Vec::new();
         for (k, moment) in moments.iter().enumerate() {
             let part = |k: usize| k as f64 / moments.len() as f64;
             let share = Share { whole: progress, from: part(k), to: part(k + 1) };
-            let pose = movement.pose(moment.time);
-            let views = movement.views(&self.job.target.views, &pose)?;
-            let beginning = Share { to: share.from, ..share };
-            let made =
-                Posed::new(self.job, (Some(pose), views, false), &beginning).map_err(|Stopped| self.stopped())?;
-            let posed = made.0;
-            let shares = Shares::new(&share, self.views_of(frame, &posed.views).into_iter());
-            let mut making = Making { posed: &posed, balanced: BalancedLight::default(), shares };
+            let layer = self.layer_at(moment.time, frame, &Share { to: share.from, ..share })?;
+            let mut making = Making { layer, shares: self.shares(&share, frame, self.layers()) };
             for (place, (file, _)) in frame.files.iter().enumerate() {
                 let Levels::Light(images) = self.render_file(*file, (frame.frame, light), &mut making)? else {
                     bail!("code values where light was expected")
@@ -107,19 +104,16 @@ impl Engine<'_> {
         &self,
         frame: &FrameOutputs,
         (light, moments): (&FrameLight, &[Moment]),
-        (movement, blur): (&Movement, MotionBlur),
+        blur: MotionBlur,
         progress: &dyn Progress,
     ) -> Result<Vec<Levels>> {
-        let times: Vec<f64> = moments.iter().map(|moment| moment.time).collect();
-        let views = movement.views_at(&self.job.target.views, &times)?;
-        let posed = self.posed(frame, progress)?;
-        let mut shares = Shares::new(progress, self.views_of(frame, &posed.views).into_iter());
+        let layer = self.layer(frame, progress)?;
+        let mut shares = self.shares(progress, frame, 1);
+        let exposed = Exposed { moments, blur, time: time(frame.frame.unwrap_or_default()) };
         let mut view = |index: usize| {
-            let share = shares.next(&posed.views[index].view);
-            let seen: Vec<(Moment, View)> =
-                moments.iter().zip(&views).map(|(moment, views)| (*moment, views[index].view.clone())).collect();
-            let exposure = Exposure::of_moments(&seen, &blur.shutter, time(frame.frame.unwrap_or_default()));
-            let image = self.widened((&posed, index), (frame.frame, light), &exposure)?;
+            let share = shares.next(&layer.posed.views[index].view);
+            let mut image = self.widened(index, (frame.frame, light), &layer, &exposed)?;
+            self.lay_background((&layer.posed, index), &mut image);
             if share.advance(1.0).is_break() { Err(self.stopped()) } else { Ok(image) }
         };
         let background = self.job.light.background;
@@ -131,19 +125,40 @@ impl Engine<'_> {
         frame.files.iter().map(file).collect()
     }
 
+    /// Renders a view of the target by ellipses, with what lies behind it, over nothing.
     fn widened(
         &self,
-        (posed, index): (&Posed, usize),
+        index: usize,
         (frame, light): (Option<u64>, &FrameLight),
-        exposure: &Exposure,
+        layer: &Layer,
+        exposed: &Exposed,
     ) -> Result<Image<Rgba>> {
+        let (posed, job) = (&layer.posed, self.job);
+        let seen = |moment: &Moment| {
+            let pose = job.movement.as_ref().map(|movement| movement.pose(moment.time));
+            Ok((*moment, job.views_in(pose.as_ref())?[index].view.clone()))
+        };
+        let seen: Vec<(Moment, View)> = exposed.moments.iter().map(seen).collect::<Result<_>>()?;
+        let exposure = Exposure::of_moments(&seen, &exposed.blur.shutter, exposed.time);
         let target = &posed.views[index];
         let Texels::Float(worlds) = light.texels() else { bail!("light of 8 bits where floats were expected") };
         let filter = Ewa { kernel: Exposure::KERNEL, anti_ringing: false };
-        let prepared = filter.of_texels(self.job.world(target), &worlds[target.world(worlds.len())]);
+        let prepared = filter.of_texels(job.world(target), &worlds[target.world(worlds.len())]);
         let mut image = exposure.ellipse(&*prepared);
         self.close_holes((posed, index), (frame, light), &mut image)?;
-        self.complete((posed, index), &mut image);
+        self.fill_unseen((posed, index), light, &mut image)?;
+        self.thin(&mut image);
+        if let (Some(behind), Some(layer)) = (&self.behind, &layer.behind) {
+            behind.lay_under(&mut image, layer.place, |engine, light| engine.widened(index, light, layer, exposed))?;
+        }
         Ok(image)
     }
+}
+
+/// An exposure of all views.
+struct Exposed<'a> {
+    moments: &'a [Moment],
+    blur: MotionBlur,
+    /// Time of the frame.
+    time: f64,
 }

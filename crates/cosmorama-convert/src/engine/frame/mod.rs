@@ -1,5 +1,6 @@
 //! One frame: its files are read, their light gathered, and its pictures made.
 
+mod behind;
 mod blur;
 pub(crate) mod files;
 pub(crate) mod light;

@@ -1,16 +1,19 @@
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
-use cosmorama::camera::View;
+use cosmorama::camera::{Covariance, View};
+use cosmorama::filter::Ewa;
 use cosmorama::raster::{FixedCodec, FixedLight, FramePool, Image, Pixel, Rgba};
-use cosmorama::render::{Progress, Share, Stopped};
+use cosmorama::render::{Continuation, Progress, Share, Stopped};
 use cosmorama::world::Source;
 use cosmorama_io::WriteOptions;
 
 use crate::detect::FacePixels;
 use crate::detect::pixels::light_of;
 use crate::diagnostic::{BACKGROUND, Code, ConvertError, Diagnostic, MISSING, Result, bail};
+use crate::engine::frame::behind::Behind;
 use crate::engine::geometry::{arithmetic, codec};
+use crate::engine::unfiltered::formula;
 use crate::engine::{
     BalancedLight, FrameLight, LayerPass, Levels, LightMaps, LightReport, Posed, Shares, Texels, Writer, warnings,
 };
@@ -20,11 +23,16 @@ use crate::job::{ConvertJob, FrameOutputs, QueueDepth};
 use crate::settings::LightScale;
 use crate::target::{Sheet, Target};
 
+/// Variance of a footprint beyond the edge of a world, at least, as a part of the pixel's area.
+const LEAST_PART: f64 = 0.01;
+
 /// Makes the outputs of a job, frame by frame.
 pub(crate) struct Engine<'a> {
     pub(super) job: &'a ConvertJob,
     /// Encoder from 15 bits to 8, for jobs with opaque 8-bit pictures in and out.
     codec: Option<FixedCodec>,
+    /// World behind the input.
+    pub(super) behind: Option<Box<Behind<'a>>>,
     /// Pose of the last frame: of all frames where nothing moves.
     posed: Mutex<Option<Arc<Posed>>>,
     /// Diagnostics about the geometry that are not told yet.
@@ -34,20 +42,31 @@ pub(crate) struct Engine<'a> {
     queue_depth: QueueDepth,
     /// Pool of memory that frames hand on.
     pub(super) pool: Arc<FramePool>,
+    /// Edges of the worlds, as far as something beyond them was asked for.
+    edges: Vec<OnceLock<Option<Continuation>>>,
     /// Figures of maps of light, by frame.
     lit: Mutex<Vec<LightReport>>,
 }
 
-/// State of a frame while its pictures are made.
+/// State of a frame, or of a moment, while its pictures are made.
 pub(super) struct Making<'a> {
-    pub(super) posed: &'a Posed,
-    pub(super) balanced: BalancedLight,
+    pub(super) layer: Layer,
     pub(super) shares: Shares<'a>,
+}
+
+/// Geometry of the input at one time, with that of the world behind it.
+pub(super) struct Layer {
+    /// Place of the frame among all.
+    pub(super) place: usize,
+    pub(super) posed: Arc<Posed>,
+    pub(super) balanced: BalancedLight,
+    pub(super) behind: Option<Box<Layer>>,
 }
 
 impl<'a> Engine<'a> {
     /// Prepares the geometry, on the threads that will render the frames.
     pub(crate) fn new(job: &'a ConvertJob, options: WriteOptions, progress: &dyn Progress) -> Result<Self, Stopped> {
+        let behind = Behind::new(job, progress)?;
         let (posed, told, geometry) = if job.movement.is_some() {
             (None, Vec::new(), bytes_while_moving(job))
         } else {
@@ -65,7 +84,8 @@ impl<'a> Engine<'a> {
         let pool = Arc::new(FramePool::keeping(pool_bytes(job, queue_depth)));
         let writer = Writer::new(&job.light, &job.layers.picture, WriteOptions { pool: Arc::clone(&pool), ..options });
         let (codec, posed, told) = (codec(job), Mutex::new(posed), Mutex::new(told));
-        Ok(Self { job, codec, posed, told, writer, queue_depth, pool, lit: Mutex::default() })
+        let edges = job.worlds.iter().map(|_| OnceLock::new()).collect();
+        Ok(Self { job, codec, behind, posed, told, writer, queue_depth, pool, edges, lit: Mutex::default() })
     }
 
     /// Adds diagnostics about geometry, each of which is told once.
@@ -78,22 +98,57 @@ impl<'a> Engine<'a> {
         }
     }
 
-    /// Takes the diagnostics about geometry that are not told yet.
+    /// Takes the diagnostics about geometry, and about the world behind the input, that are not told yet.
     pub(crate) fn told(&self) -> Vec<Diagnostic> {
-        std::mem::take(&mut lock(&self.told))
+        let mut told = std::mem::take(&mut *lock(&self.told));
+        told.extend(self.behind.iter().flat_map(|behind| behind.engine.told()));
+        told
     }
 
-    /// Returns the target's views in a frame. They are kept, with their geometry, while the pose stays the same.
-    pub(super) fn posed(&self, frame: &FrameOutputs, progress: &dyn Progress) -> Result<Arc<Posed>> {
-        let pose = self.job.pose(frame.frame);
+    /// Returns the diagnostics about the light behind the input in all frames.
+    pub(crate) fn tallied_behind(&self) -> Vec<Diagnostic> {
+        self.behind.as_ref().map_or_else(Vec::new, |behind| behind.tallied())
+    }
+
+    /// Returns the geometry of a frame.
+    pub(super) fn layer(&self, frame: &FrameOutputs, progress: &dyn Progress) -> Result<Layer> {
+        let mut after = self.job.outputs.frames.iter().skip_while(|other| other.frame != frame.frame).skip(1);
+        let frames = (frame.frame, after.next().map(|next| next.frame));
+        self.layer_of(self.job.place(frame.frame), &|engine| engine.posed(frames, progress))
+    }
+
+    /// Returns the geometry of a moment of a frame's exposure, which is used once.
+    pub(super) fn layer_at(&self, time: f64, frame: &FrameOutputs, progress: &dyn Progress) -> Result<Layer> {
+        self.layer_of(self.job.place(frame.frame), &|engine| {
+            let pose = engine.job.movement.as_ref().map(|movement| movement.pose(time));
+            let views = engine.job.views_in(pose.as_ref())?;
+            let made = Posed::new(engine.job, (pose, views, false), progress);
+            made.map(|made| Arc::new(made.0)).map_err(|Stopped| engine.stopped())
+        })
+    }
+
+    /// Returns the geometry of the input, and of what lies behind it, as `posed` gives it.
+    fn layer_of(&self, place: usize, posed: &dyn Fn(&Engine) -> Result<Arc<Posed>>) -> Result<Layer> {
+        let behind = self.behind.as_ref().map(|behind| behind.engine.layer_of(place, posed).map(Box::new));
+        Ok(Layer { place, posed: posed(self)?, balanced: BalancedLight::default(), behind: behind.transpose()? })
+    }
+
+    /// Returns the number of worlds that a picture shows, one behind the other.
+    pub(super) fn layers(&self) -> usize {
+        1 + self.behind.as_ref().map_or(0, |behind| behind.engine.layers())
+    }
+
+    /// Returns the target's views in a frame, after which another one comes. They are kept, with their geometry, while the pose
+    /// stays the same.
+    fn posed(&self, (frame, next): (Option<u64>, Option<Option<u64>>), progress: &dyn Progress) -> Result<Arc<Posed>> {
+        let pose = self.job.pose(frame);
         let mut last = lock(&self.posed);
         if let Some(posed) = last.as_ref().filter(|posed| posed.pose == pose) {
             return Ok(Arc::clone(posed));
         }
         // Never both at once.
         *last = None;
-        let mut after = self.job.outputs.frames.iter().skip_while(|other| other.frame != frame.frame).skip(1);
-        let is_repeated = after.next().is_some_and(|next| self.job.pose(next.frame) == pose);
+        let is_repeated = next.is_some_and(|next| self.job.pose(next) == pose);
         let beginning = Share { whole: progress, from: 0.0, to: 0.0 };
         let views = self.job.views_in(pose.as_ref())?;
         let made = Posed::new(self.job, (pose, views, is_repeated), &beginning).map_err(|Stopped| self.stopped())?;
@@ -199,16 +254,15 @@ impl<'a> Engine<'a> {
         if let Some(moments) = self.blur_of(frame)? {
             return self.render_blurred(frame, (light, &moments), progress);
         }
-        let posed = self.posed(frame, progress)?;
+        let layer = self.layer(frame, progress)?;
         let Target { views, files, .. } = &self.job.target;
         let sheets = frame.files.iter().flat_map(|(file, _)| files[*file].levels());
         let views: Vec<&View> = sheets.flat_map(|sheet| &sheet.pieces).map(|(index, _)| &views[*index].view).collect();
         let layers = &self.job.layers;
-        // Once for the picture, and once for each group of further channels.
-        let times = usize::from(!layers.leaves_picture_out()) + layers.groups.len();
+        // Once for the picture, with what is behind it, and once for each group of further channels.
+        let times = if layers.leaves_picture_out() { 0 } else { self.layers() } + layers.groups.len();
         let all = views.iter().copied().cycle().take(views.len() * times);
-        let mut making =
-            Making { posed: &posed, balanced: BalancedLight::default(), shares: Shares::new(progress, all) };
+        let mut making = Making { layer, shares: Shares::new(progress, all) };
         let mut picture = |(index, _): &(usize, PathBuf)| {
             if layers.leaves_picture_out() {
                 return Ok(Levels::Light(Vec::new()));
@@ -224,9 +278,9 @@ impl<'a> Engine<'a> {
         &self,
         frame: &FrameOutputs,
         pictures: Vec<Levels>,
-        Making { posed, shares, .. }: &mut Making,
+        Making { layer, shares }: &mut Making,
     ) -> Result<Vec<Levels>> {
-        let pass = LayerPass { job: self.job, posed, pool: &self.pool };
+        let pass = LayerPass { job: self.job, posed: &layer.posed, pool: &self.pool };
         let made = pass.make(frame, shares)?;
         let size = |(index, _): &(usize, PathBuf)| self.job.target.files[*index].sheet.size;
         let all = frame.files.iter().map(size).zip(pictures).zip(made);
@@ -255,7 +309,7 @@ impl<'a> Engine<'a> {
         let measured: Vec<_> = views.iter().zip(&made).collect();
         let reports = LightReport::of(self.job, frame.frame, light.texels(), (&measured, scale));
         lock(&self.lit).extend(reports);
-        let posed = self.posed(frame, progress)?;
+        let posed = self.layer(frame, progress)?.posed;
         frame.files.iter().map(|(file, _)| self.map_file((&posed, *file), &made)).collect()
     }
 
@@ -297,11 +351,11 @@ impl<'a> Engine<'a> {
         (worlds, codec): (&[FixedLight], &FixedCodec),
         making: &mut Making,
     ) -> Result<Image<[u8; 3]>> {
-        let target = &making.posed.views[index];
+        let posed = &making.layer.posed;
+        let target = &posed.views[index];
         let light = &worlds[target.world(worlds.len())];
         let share = making.shares.next(&target.view);
-        let made =
-            making.posed.geometry.codes(index, self.job.resampler(target).watched(&share), (light, codec), &self.pool);
+        let made = posed.geometry.codes(index, self.job.resampler(target).watched(&share), (light, codec), &self.pool);
         made.map_err(|Stopped| self.stopped())
     }
 
@@ -309,25 +363,55 @@ impl<'a> Engine<'a> {
         &self,
         index: usize,
         (frame, light): (Option<u64>, &FrameLight),
-        Making { posed, balanced, shares }: &mut Making,
+        Making { layer, shares }: &mut Making,
+    ) -> Result<Image<Rgba>> {
+        let is_solid = self.behind.is_none() && self.job.opacity >= 1.0;
+        if is_solid && self.is_complete(light) && !self.job.light.channels.has_alpha() {
+            // A file without alpha shows everything in front of the background.
+            return self.filtered(index, (light, self.job.light.background), layer, shares);
+        }
+        let mut image = self.layered(index, (frame, light), layer, shares)?;
+        self.lay_background((&layer.posed, index), &mut image);
+        Ok(image)
+    }
+
+    /// Renders a view of the target, with what lies behind it, over nothing.
+    fn layered(
+        &self,
+        index: usize,
+        (frame, light): (Option<u64>, &FrameLight),
+        layer: &mut Layer,
+        shares: &mut Shares,
+    ) -> Result<Image<Rgba>> {
+        let mut image = self.filtered(index, (light, Rgba::TRANSPARENT), layer, shares)?;
+        self.close_holes((&layer.posed, index), (frame, light), &mut image)?;
+        self.fill_unseen((&layer.posed, index), light, &mut image)?;
+        self.thin(&mut image);
+        if let (Some(behind), Some(layer)) = (&self.behind, &mut layer.behind) {
+            behind.lay_under(&mut image, layer.place, |engine, light| engine.layered(index, light, layer, shares))?;
+        }
+        Ok(image)
+    }
+
+    /// Filters a view of the target over a background.
+    fn filtered(
+        &self,
+        index: usize,
+        (light, background): (&FrameLight, Rgba),
+        Layer { posed, balanced, .. }: &mut Layer,
+        shares: &mut Shares,
     ) -> Result<Image<Rgba>> {
         let target = &posed.views[index];
-        let Texels::Float(worlds) = light.texels() else { bail!("light of 8 bits where floats were expected") };
         let share = shares.next(&target.view);
-        let (resampler, texels) = (self.job.resampler(target).watched(&share), &worlds[target.world(worlds.len())]);
-        let mut make = |light, background| {
-            let made = posed.geometry.light(index, resampler, light, background, &self.pool, balanced);
-            made.map_err(|Stopped| self.stopped())
-        };
-        if self.is_complete(light) && !self.job.light.channels.has_alpha() {
-            // A file without alpha shows everything in front of the background.
-            let background = self.job.light.background;
-            return make((texels, false), background);
+        if let Some(world) = self.job.formula {
+            let image = formula::light(world, &target.view, &self.job.light.working.primaries);
+            return if share.advance(1.0).is_break() { Err(self.stopped()) } else { Ok(image) };
         }
-        let mut image = make((texels, self.has_holes(light)), Rgba::TRANSPARENT)?;
-        self.close_holes((posed, index), (frame, light), &mut image)?;
-        self.complete((posed, index), &mut image);
-        Ok(image)
+        let Texels::Float(worlds) = light.texels() else { bail!("light of 8 bits where floats were expected") };
+        let (resampler, texels) = (self.job.resampler(target).watched(&share), &worlds[target.world(worlds.len())]);
+        let texels = (texels.as_slice(), self.has_holes(light));
+        let made = posed.geometry.light(index, resampler, texels, background, &self.pool, balanced);
+        made.map_err(|Stopped| self.stopped())
     }
 
     /// Creates the error of a stopped frame, as if no frame were done: the caller knows how many are.
@@ -337,7 +421,7 @@ impl<'a> Engine<'a> {
 
     /// Returns whether no texels are missing and every pixel has a view.
     fn is_complete(&self, light: &FrameLight) -> bool {
-        !matches!(self.job.coverage, Coverage::Fill(_)) && !self.has_holes(light)
+        matches!(self.job.coverage, Coverage::Complete) && !self.has_holes(light)
     }
 
     /// Returns whether texels of opaque inputs are missing.
@@ -345,11 +429,45 @@ impl<'a> Engine<'a> {
         !self.job.light.input_alpha && self.incomplete(light).next().is_some()
     }
 
-    pub(super) fn complete(&self, (posed, index): (&Posed, usize), image: &mut Image<Rgba>) {
-        if let Coverage::Fill(colour) = self.job.coverage {
-            posed.mask(self.job, index).fill_unseen(image, colour);
+    /// Applies the opacity of the input.
+    pub(super) fn thin(&self, image: &mut Image<Rgba>) {
+        let opacity = self.job.opacity;
+        if opacity < 1.0 {
+            image.pixels_mut().iter_mut().for_each(|pixel| *pixel = *pixel * opacity);
         }
-        self.lay_background((posed, index), image);
+    }
+
+    /// Fills what no view of the input covers.
+    pub(super) fn fill_unseen(
+        &self,
+        (posed, index): (&Posed, usize),
+        light: &FrameLight,
+        image: &mut Image<Rgba>,
+    ) -> Result<()> {
+        let (job, target) = (self.job, &posed.views[index]);
+        match job.coverage {
+            Coverage::Complete => {}
+            Coverage::Fill(colour) => posed.mask(job, index).fill_unseen(image, colour),
+            Coverage::Continue(beyond) => {
+                let Texels::Float(worlds) = light.texels() else { bail!("light of 8 bits where floats were expected") };
+                let place = target.world(worlds.len());
+                let world = job.world(target);
+                let Some(edge) = self.edges[place].get_or_init(|| Continuation::of(world)) else { return Ok(()) };
+                let filter = Ewa { kernel: job.filter.kernel, anti_ringing: job.filter.anti_ringing };
+                let prepared = filter.of_texels(world, &worlds[place]);
+                posed.mask(job, index).fill_by(image, |i, j| {
+                    let seen = target.view.screen_pixel(i, j).map(|screen| screen.footprint);
+                    // Stretched, it has no width across the edge: it gets a part of its own.
+                    let instead = seen.and_then(|pixel| {
+                        let found = edge.footprint(world, &pixel, beyond)?;
+                        let least = LEAST_PART * pixel.jacobian.solid_angle();
+                        Some(found.widened_by(Covariance::round(found.direction, least)))
+                    });
+                    instead.map_or(Rgba::TRANSPARENT, |footprint| prepared.average(&footprint))
+                });
+            }
+        }
+        Ok(())
     }
 
     /// Fills pixels of opaque inputs whose texels are missing: the remaining texels make the pixel, and a pixel without
@@ -380,7 +498,7 @@ impl<'a> Engine<'a> {
         Ok(())
     }
 
-    fn lay_background(&self, (posed, index): (&Posed, usize), image: &mut Image<Rgba>) {
+    pub(super) fn lay_background(&self, (posed, index): (&Posed, usize), image: &mut Image<Rgba>) {
         let background = self.job.light.background;
         if !self.job.light.channels.has_alpha() {
             image.lay_over(background);
@@ -391,7 +509,7 @@ impl<'a> Engine<'a> {
 }
 
 /// Locks a value that no panic leaves half changed.
-fn lock<T>(value: &Mutex<T>) -> MutexGuard<'_, T> {
+pub(super) fn lock<T>(value: &Mutex<T>) -> MutexGuard<'_, T> {
     value.lock().unwrap_or_else(PoisonError::into_inner)
 }
 

@@ -35,7 +35,7 @@ pub(crate) fn is_asked_for(job: &ConvertJob) -> bool {
 /// Returns the views of each size that together show all that a world shows. Pixels filled for lack of a view, and
 /// alpha, rule out a balance.
 pub(crate) fn groups(job: &ConvertJob, targets: &[TargetView]) -> Vec<Vec<usize>> {
-    if !is_asked_for(job) || job.light.input_alpha || matches!(job.coverage, Coverage::Fill(_)) {
+    if !is_asked_for(job) || job.light.input_alpha || !matches!(job.coverage, Coverage::Complete) {
         return Vec::new();
     }
     let key = |index: usize| {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use cosmorama::camera::View;
 use cosmorama::motion::LightSum;
-use cosmorama::raster::{ColourMatrix, Depth, Image, Primaries, Threads};
+use cosmorama::raster::{ColourMatrix, Depth, Image, Primaries, Rgba, Threads};
 use cosmorama_builtin::{BuiltinWorld, DirectionMap, DirectionPixel};
 use cosmorama_io::{WriteOptions, write_planes};
 
@@ -34,13 +34,8 @@ pub(crate) fn directions(output: &OutputFile, map: DirectionMap) -> Result<()> {
 fn levels(output: &OutputFile, world: BuiltinWorld) -> Result<Levels> {
     let OutputFile { job, exposure, index: file, .. } = *output;
     let background = job.light.background;
-    // Formulas have the primaries of Rec. 709.
-    let matrix = ColourMatrix::between(&Primaries::REC709, &job.light.working.primaries);
     let moment = |view: &View| {
-        let mut image = world.picture(view);
-        if !matrix.is_identity() {
-            matrix.convert(image.pixels_mut());
-        }
+        let mut image = light(world, view, &job.light.working.primaries);
         image.pixels_mut().iter_mut().for_each(|pixel| *pixel = pixel.over(background));
         image
     };
@@ -54,6 +49,17 @@ fn levels(output: &OutputFile, world: BuiltinWorld) -> Result<Levels> {
     };
     let levels = job.target.files[file].levels();
     Ok(Levels::Light(levels.map(|sheet| assemble(sheet, background, picture)).collect::<Result<_>>()?))
+}
+
+/// Computes the light of a world in a view, in some primaries.
+pub(crate) fn light(world: BuiltinWorld, view: &View, primaries: &Primaries) -> Image<Rgba> {
+    let mut image = world.picture(view);
+    // Formulas have the primaries of Rec. 709.
+    let matrix = ColourMatrix::between(&Primaries::REC709, primaries);
+    if !matrix.is_identity() {
+        matrix.convert(image.pixels_mut());
+    }
+    image
 }
 
 /// Computes the directions of a file's pixels.

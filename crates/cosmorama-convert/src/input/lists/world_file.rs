@@ -3,10 +3,11 @@
 use std::ops::Range;
 use std::path::Path;
 
+use cosmorama::motion::Smoothness;
 use cosmorama::sphere::Angle;
 use cosmorama::world::Blend;
 use cosmorama_io::{FrameList, FramePattern};
-use cosmorama_spec::Spec;
+use cosmorama_spec::{FrameMap, Spec};
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -16,7 +17,8 @@ use crate::diagnostic::{
 use crate::input::spec_files::calibration::read_calibrations;
 use crate::input::spec_files::st_map;
 use crate::input::{Builtin, Input, InputView, Listed};
-use crate::source::Access;
+use crate::settings::{Backdrop, PoseFile};
+use crate::source::{Access, DecodedPicture, Files, MemoryBudget};
 
 /// A world file as written.
 #[derive(Deserialize)]
@@ -24,6 +26,24 @@ use crate::source::Access;
 struct WorldFile {
     #[serde(default)]
     view: Vec<Entry>,
+    #[serde(default)]
+    layer: Vec<Layer>,
+}
+
+/// One of several worlds, one before the other; the first is nearest.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Layer {
+    /// File, or pattern of faces or frames, relative to the world file; or another world file, or `builtin:NAME`.
+    image: Spanned<String>,
+    /// Projection and orientation; detected as for any input if omitted.
+    spec: Option<Spanned<String>>,
+    /// Factor of light and alpha.
+    opacity: Option<Spanned<f64>>,
+    /// Poses that turn it, relative to the world file.
+    path: Option<Spanned<String>>,
+    /// Rule for its frames; the first layer has the output's.
+    frames: Option<Spanned<String>>,
 }
 
 /// One view, or one set of faces.
@@ -51,7 +71,8 @@ struct Text<'a> {
 
 /// Description of a world file's content.
 const SCHEMA: &str = "a [[view]] for each image, with image = \"FILE\", and where wanted spec = \"SPEC\", priority = WHOLE \
-                      NUMBER, feather = DEGREES, mask = \"FILE\"";
+                      NUMBER, feather = DEGREES, mask = \"FILE\"; or a [[layer]] for each world, the nearest first, with \
+                      image, and where wanted spec, opacity = 0 to 1, path = \"FILE\", frames = \"hold\"";
 
 /// Rewrites a message of the TOML reader without programming terms.
 fn in_words(message: &str) -> String {
@@ -91,14 +112,13 @@ pub(crate) fn listed(
     access: Access,
     warnings: &mut Vec<Diagnostic>,
 ) -> Result<Vec<Listed>> {
-    let cannot_open = |error| failed_as(of_opening(&error), format!("cannot open the world file {name}: {error}"));
-    let bytes = access.read_bytes(Path::new(name)).map_err(cannot_open)?;
-    let Ok(text) = String::from_utf8(bytes) else {
-        bail!(Malformed: "{name}: not a text; expected a world file in TOML: {SCHEMA}")
-    };
+    let text = read(name, access)?;
     let source = Text { name, text: &text };
-    let file: WorldFile = toml::from_str(&text)
-        .map_err(|error| source.error(error.span(), &format!("{}; expected {SCHEMA}", in_words(error.message()))))?;
+    let file = source.parse()?;
+    if !file.layer.is_empty() {
+        return Err(source
+            .error(Some(file.layer[0].image.span()), "layers are for convert: one world is expected here, of views"));
+    }
     if file.view.is_empty() {
         bail!(
             Malformed: "{name}: no [[view]] in it; a world file has one for each image, with image = \"FILE\" and spec = \"SPEC\""
@@ -113,6 +133,69 @@ pub(crate) fn listed(
         })
     };
     file.view.iter().map(list).collect()
+}
+
+/// Returns the layers of a world file, the nearest first; none where an input is no world file, or one of views.
+pub(crate) fn layers(name: &str, files: &dyn Files) -> Result<Vec<Backdrop>> {
+    if !is_world_file(name) {
+        return Ok(Vec::new());
+    }
+    let access = Access { files, memory: MemoryBudget::new(None), decoded: &DecodedPicture::default() };
+    let text = read(name, access)?;
+    let source = Text { name, text: &text };
+    let file = source.parse()?;
+    if let (Some(view), Some(_)) = (file.view.first(), file.layer.first()) {
+        let message =
+            "both [[view]] and [[layer]]; name the views in a file of their own, and that as the image of a layer";
+        return Err(source.error(Some(view.image.span()), message));
+    }
+    file.layer.iter().enumerate().map(|(index, layer)| layer.backdrop(&source, index == 0)).collect()
+}
+
+fn read(name: &str, access: Access) -> Result<String> {
+    let cannot_open = |error| failed_as(of_opening(&error), format!("cannot open the world file {name}: {error}"));
+    let bytes = access.read_bytes(Path::new(name)).map_err(cannot_open)?;
+    String::from_utf8(bytes)
+        .map_err(|_| failure!(Malformed: "{name}: not a text; expected a world file in TOML: {SCHEMA}"))
+}
+
+impl Layer {
+    fn backdrop(&self, source: &Text, is_first: bool) -> Result<Backdrop> {
+        let beside = |name: &str| source.folder().join(name).to_string_lossy().into_owned();
+        let image = self.image.get_ref();
+        let input = if Builtin::named(image)?.is_some() { image.clone() } else { beside(image) };
+        let spec = |spec: &Spanned<String>| {
+            let text = spec.get_ref();
+            let wrong = |error| source.error(Some(spec.span()), &format!("spec = \"{text}\": {error}"));
+            Spec::parse_in(source.folder(), text).map_err(wrong)
+        };
+        let frames = |rule: &Spanned<String>| {
+            if is_first {
+                let message =
+                    "frames is for the layers behind the first, which has the output's own frames; leave it out";
+                return Err(source.error(Some(rule.span()), message));
+            }
+            rule.get_ref().parse::<FrameMap>().map_err(|message| source.error(Some(rule.span()), &message))
+        };
+        let opacity = self.opacity.as_ref().map_or(1.0, |opacity| *opacity.get_ref());
+        if let (false, Some(given)) = ((0.0..=1.0).contains(&opacity), &self.opacity) {
+            return Err(
+                source.error(Some(given.span()), &format!("opacity = {opacity}: expected a number from 0 to 1"))
+            );
+        }
+        let poses = |path: &Spanned<String>| PoseFile {
+            file: beside(path.get_ref()),
+            fps: None,
+            smoothness: Smoothness::default(),
+        };
+        Ok(Backdrop {
+            from: self.spec.as_ref().map(spec).transpose()?,
+            frames: self.frames.as_ref().map(frames).transpose()?.unwrap_or_default(),
+            in_path: self.path.as_ref().map(poses),
+            opacity: opacity as f32,
+            ..Backdrop::new(input)
+        })
+    }
 }
 
 impl Entry {
@@ -203,6 +286,11 @@ impl Entry {
 }
 
 impl Text<'_> {
+    fn parse(&self) -> Result<WorldFile> {
+        toml::from_str(self.text)
+            .map_err(|error| self.error(error.span(), &format!("{}; expected {SCHEMA}", in_words(error.message()))))
+    }
+
     /// Returns the folder to which names of files are relative.
     fn folder(&self) -> &Path {
         Path::new(self.name).parent().unwrap_or(Path::new(""))

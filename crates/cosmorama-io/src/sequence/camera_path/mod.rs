@@ -1,12 +1,14 @@
-//! Paths of cameras: poses by frame or by time, as tables (CSV) or JSON.
+//! Paths of cameras: poses by frame or by time, as tables (CSV), JSON, or animations of glTF files.
 
 mod csv;
 mod error;
+mod gltf;
 mod json;
 mod table;
 
 pub use error::CameraPathError;
 
+use std::io;
 use std::path::Path;
 
 use cosmorama::sphere::{Angle, Orientation};
@@ -45,12 +47,50 @@ pub struct PathPose {
     pub fov: Option<Angle>,
 }
 
+/// File with the path of a camera, apart from its bytes.
+#[derive(Clone, Copy)]
+pub struct PathSource<'a> {
+    /// Name of the file: `.glb` and `.gltf` are glTF.
+    pub name: &'a Path,
+    /// Frames in a second, for time stamps.
+    pub fps: Option<f64>,
+    /// Camera or node of a glTF file; its only camera, unless given.
+    pub node: Option<&'a str>,
+    /// Whether the path is that of a picture's own camera, as its gyroscope measured it: of a table by Gyroflow, which has
+    /// both, the measured poses are read, and else the smoothed ones.
+    pub is_of_input: bool,
+    /// Reads a file that this one refers to.
+    pub beside: &'a dyn Fn(&Path) -> io::Result<Vec<u8>>,
+}
+
 /// Greatest turn from a frame to the next, in degrees, and what may be rounded of it.
 const GREATEST_TURN: f64 = 90.0;
 const ROUNDING: f64 = 1e-6;
 
 impl CameraPath {
-    /// Reads a path from the bytes of a file. With `fps` it may have time stamps; the frame at a time t is fps·t. `name` is
+    /// Separates the name of a file of poses from that of a node in it, as in `shot.glb#Camera`.
+    pub fn split_node(text: &str) -> (&str, Option<&str>) {
+        match text.split_once('#') {
+            Some((file, node)) if gltf::is_named(Path::new(file)) => (file, Some(node)),
+            _ => (text, None),
+        }
+    }
+
+    /// Reads a path from the bytes of a file: a table as [`CameraPath::parse`] reads it, or an animated camera of a glTF file.
+    ///
+    /// # Errors
+    /// Those of [`CameraPath::parse`]; and when a glTF file is damaged, no rate is given for its times, it does not have the node,
+    /// or nothing turns that.
+    pub fn read(bytes: &[u8], source: &PathSource) -> Result<Self, CameraPathError> {
+        if gltf::is_named(source.name) {
+            let path = gltf::path(bytes, source)?;
+            check_turns(source.name, &path.poses)?;
+            return Ok(path);
+        }
+        Self::of_table(&table(bytes, source.name)?, source.fps, source.is_of_input)
+    }
+
+    /// Reads a table of poses from the bytes of a file. With `fps` it may have time stamps; the frame at a time t is fps·t. `name` is
     /// the file's name in messages.
     ///
     /// The table has a column `frame`, or `time` in seconds, and either `yaw`, `pitch` and `roll` in degrees or a unit
@@ -61,15 +101,11 @@ impl CameraPath {
     /// When the file is no such table, a number is none, frames are not in order, a quaternion is not of unit length, or the
     /// camera turns by more than 90° from a frame to the next.
     pub fn parse(bytes: &[u8], name: &Path, fps: Option<f64>) -> Result<Self, CameraPathError> {
-        let text =
-            str::from_utf8(bytes).map_err(|_| error::wrong(name, "not a text; expected a path as CSV or JSON"))?;
-        let text = text.trim_start_matches('\u{feff}').trim();
-        let table = if text.starts_with(['[', '{']) { json::table(text, name)? } else { csv::table(text, name)? };
-        Self::of_table(&table, fps)
+        Self::of_table(&table(bytes, name)?, fps, false)
     }
 
-    fn of_table(table: &Table, fps: Option<f64>) -> Result<Self, CameraPathError> {
-        let columns = table.columns(fps)?;
+    fn of_table(table: &Table, fps: Option<f64>, is_of_input: bool) -> Result<Self, CameraPathError> {
+        let columns = table.columns(fps, is_of_input)?;
         let mut poses: Vec<PathPose> = Vec::new();
         let mut remarks = Vec::new();
         for row in &table.rows {
@@ -95,8 +131,35 @@ impl CameraPath {
         if poses.is_empty() {
             return Err(error::wrong(table.name, "no pose in it; expected a line for each frame"));
         }
+        remarks.extend(columns.settle(table, &mut poses)?);
         Ok(Self { poses, ignored: columns.ignored, remarks })
     }
+}
+
+/// Reads the table in a text.
+fn table<'a>(bytes: &[u8], name: &'a Path) -> Result<Table<'a>, CameraPathError> {
+    let text = str::from_utf8(bytes).map_err(|_| {
+        error::wrong(name, "not a text; expected a path as CSV or JSON, or a glTF file named .glb or .gltf")
+    })?;
+    let text = text.trim_start_matches('\u{feff}').trim();
+    if text.starts_with(['[', '{']) { json::table(text, name) } else { csv::table(text, name) }
+}
+
+/// Checks that poses turn by no more than is sensible from a frame to the next.
+fn check_turns(name: &Path, poses: &[PathPose]) -> Result<(), CameraPathError> {
+    for pair in poses.windows(2) {
+        let turn = pair[0].orientation.angle_to(&pair[1].orientation).degrees();
+        if turn > GREATEST_TURN * (pair[1].frame - pair[0].frame).max(1.0) + ROUNDING {
+            return Err(error::wrong(
+                name,
+                format!(
+                    "the camera turns by {turn:.0}° from frame {} to {}; expected at most {GREATEST_TURN:.0}° from a frame to the next",
+                    pair[0].frame, pair[1].frame
+                ),
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// Checks that a pose is later than the one before it.

@@ -41,10 +41,26 @@ enum Turn {
     Angles([Option<usize>; 3]),
     /// A unit quaternion: w, x, y, z.
     Quaternion([usize; 4]),
+    /// A rotation by Gyroflow.
+    Gyroflow(Gyroflow),
+}
+
+/// Columns of a rotation as Gyroflow writes it: from the camera's frame to a world of its own.
+#[derive(Clone)]
+enum Gyroflow {
+    /// Unit quaternion: w, x, y, z.
+    Quaternion([usize; 4]),
+    /// Angles in degrees about x, then y, then z, which it calls pitch, yaw and roll.
+    Angles([usize; 3]),
 }
 
 const ANGLES: [&str; 3] = ["yaw", "pitch", "roll"];
 const QUATERNION: [&str; 4] = ["qw", "qx", "qy", "qz"];
+
+/// Gyroflow's names for poses as they were measured, and as it has smoothed them; it counts time in milliseconds.
+const MEASURED: &str = "org_";
+const SMOOTHED: &str = "stab_";
+const MILLISECONDS: &str = "timestamp_ms";
 
 /// Columns that a path may have.
 const EXPECTED: &str = "expected frame,yaw,pitch,roll or frame,qw,qx,qy,qz, and fov if it changes; time in seconds may stand for \
@@ -77,7 +93,7 @@ impl Table<'_> {
     }
 
     /// Finds the columns that make poses.
-    pub(super) fn columns(&self, fps: Option<f64>) -> Result<Columns, CameraPathError> {
+    pub(super) fn columns(&self, fps: Option<f64>, is_of_input: bool) -> Result<Columns, CameraPathError> {
         if self.names.is_empty() {
             return Err(self.error_at(0, &format!("no pose in it; {EXPECTED}")));
         }
@@ -87,6 +103,14 @@ impl Table<'_> {
         }
         let at = |name: &str| self.names.iter().position(|other| other == name);
         let lacking = |name: &str| self.error_at(self.header, &format!("no column {name}; {EXPECTED}"));
+        let gyroflow = self.gyroflow(is_of_input);
+        if let (Some(turn), Some(time), Some(fps)) = (&gyroflow, at(MILLISECONDS), fps) {
+            let turn = Turn::Gyroflow(turn.clone());
+            return Ok(Columns { time, rate: fps / 1000.0, turn, fov: None, ignored: Vec::new() });
+        }
+        if let (Some(turn), Some(time)) = (gyroflow, at("frame")) {
+            return Ok(Columns { time, rate: 1.0, turn: Turn::Gyroflow(turn), fov: None, ignored: Vec::new() });
+        }
         let (time, rate) = match (at("frame"), at("time"), fps) {
             (Some(_), _, Some(_)) => {
                 return Err(self.rate_error("poses are by frame, so that a rate (fps) has no effect; leave it out"));
@@ -120,6 +144,22 @@ impl Table<'_> {
         Ok(Columns { time, rate, turn, fov: at("fov"), ignored })
     }
 
+    /// Finds the rotations of a table by Gyroflow: those of the input's camera are measured, those of another smoothed if it has
+    /// any.
+    fn gyroflow(&self, is_of_input: bool) -> Option<Gyroflow> {
+        let at = |name: String| self.names.iter().position(|other| *other == name);
+        let kinds = if is_of_input { [MEASURED, SMOOTHED] } else { [SMOOTHED, MEASURED] };
+        kinds.into_iter().find_map(|kind| {
+            let quaternion = ["w", "x", "y", "z"].map(|part| at(format!("{kind}quat_{part}")));
+            let angles = ["pitch", "yaw", "roll"].map(|angle| at(format!("{kind}{angle}")));
+            match (quaternion, angles) {
+                ([Some(w), Some(x), Some(y), Some(z)], _) => Some(Gyroflow::Quaternion([w, x, y, z])),
+                (_, [Some(x), Some(y), Some(z)]) => Some(Gyroflow::Angles([x, y, z])),
+                _ => None,
+            }
+        })
+    }
+
     /// Returns a number of a row.
     fn number(&self, row: &Row, column: usize) -> Result<f64, CameraPathError> {
         let name = &self.names[column];
@@ -144,13 +184,21 @@ impl Columns {
                 let [yaw, pitch, roll] = [yaw?, pitch?, roll?].map(Angle::from_degrees);
                 Orientation::from_yaw_pitch_roll(yaw, pitch, roll)
             }
-            Turn::Quaternion([w, x, y, z]) => {
-                let parts = [number(*w)?, number(*x)?, number(*y)?, number(*z)?];
-                Orientation::from_quaternion(parts).map_err(|length| {
+            Turn::Quaternion(columns) | Turn::Gyroflow(Gyroflow::Quaternion(columns)) => {
+                let [w, x, y, z] = columns.map(number);
+                Orientation::from_quaternion([w?, x?, y?, z?]).map_err(|length| {
                     let found =
                         format!("the quaternion's length is {length:.4}; expected 1: a rotation is a unit quaternion");
                     table.error(row, &found)
                 })?
+            }
+            Turn::Gyroflow(Gyroflow::Angles(columns)) => {
+                let [x, y, z] = columns.map(number);
+                let [x, y, z] = [x?, y?, z?].map(Angle::from_degrees);
+                // Our own angles turn about y, then x, then z, and two of them the other way.
+                let about_x = Orientation::from_yaw_pitch_roll(Angle::ZERO, x, Angle::ZERO);
+                let about_y = Orientation::from_yaw_pitch_roll(-y, Angle::ZERO, Angle::ZERO);
+                about_x.within(about_y).within(Orientation::from_yaw_pitch_roll(Angle::ZERO, Angle::ZERO, -z))
             }
         };
         let fov = self.fov.map(number).transpose()?;
@@ -158,6 +206,19 @@ impl Columns {
             return Err(table.error(row, &format!("fov is {fov}; expected an angle above 0° and at most 360°")));
         }
         Ok(PathPose { frame: number(self.time)? * self.rate, orientation, fov: fov.map(Angle::from_degrees) })
+    }
+
+    /// Turns a path by Gyroflow so that it begins at the front: its world has an orientation of its own. A smoothed path begins as
+    /// far from there as from the measured one. Returns a remark on it.
+    pub(super) fn settle(&self, table: &Table, poses: &mut [PathPose]) -> Result<Option<String>, CameraPathError> {
+        let (Turn::Gyroflow(_), Some(row)) = (&self.turn, table.rows.first()) else { return Ok(None) };
+        let Some(measured) = table.gyroflow(true) else { return Ok(None) };
+        let columns = Columns { turn: Turn::Gyroflow(measured), fov: None, ignored: Vec::new(), ..*self };
+        let first = columns.pose(table, row)?.orientation;
+        for pose in poses {
+            pose.orientation = pose.orientation.within(first.inverse());
+        }
+        Ok(Some("a path by Gyroflow: its first pose looks to the front, upright".to_owned()))
     }
 
     /// Describes an angle that goes on by more than half a turn over several frames: the shortest way is taken, and may not be

@@ -2,6 +2,7 @@
 
 pub(crate) mod block;
 pub(crate) mod bounds;
+pub(crate) mod continuation;
 pub(crate) mod need;
 pub(crate) mod require;
 pub(crate) mod screen_mask;

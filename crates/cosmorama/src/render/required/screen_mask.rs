@@ -1,45 +1,88 @@
 use rayon::prelude::*;
 
-use crate::camera::View;
+use crate::camera::{PixelPoint, View};
 use crate::raster::{Image, Rgba};
 use crate::world::World;
 
-/// Light-independent state of a target's pixels: the part of each inside the field of view, and whether any view covers
-/// its direction.
+/// Light-independent state of a target's pixels: the part of each inside the field of view, and the part of that which
+/// views of the world cover.
 #[derive(Clone, Debug)]
 pub struct ScreenMask {
     pixels: Vec<MaskPixel>,
 }
 
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct MaskPixel {
+    /// Part of the pixel inside the field of view.
     coverage: f32,
-    unseen: bool,
+    /// Part of that which the world covers.
+    seen: f32,
 }
+
+/// Sub-samples per side that measure a pixel in which the world ends.
+const SUB_SAMPLES: usize = 16;
 
 impl ScreenMask {
     /// Makes the mask of a target in a world.
     pub fn new(world: &World, target: &View) -> Self {
         let width = target.width();
-        let mut pixels = vec![MaskPixel::default(); width * target.height()];
-        pixels.par_chunks_mut(width.max(1)).enumerate().for_each(|(j, row)| {
+        let mut centres = vec![MaskPixel::default(); width * target.height()];
+        centres.par_chunks_mut(width.max(1)).enumerate().for_each(|(j, row)| {
             for (i, pixel) in row.iter_mut().enumerate() {
                 let Some(screen) = target.screen_pixel(i, j) else { continue };
-                let direction = screen.footprint.direction;
-                let unseen = world.owner(direction).is_none();
-                *pixel = MaskPixel { coverage: screen.coverage as f32, unseen };
+                let is_seen = world.owner(screen.footprint.direction).is_some();
+                *pixel = MaskPixel { coverage: screen.coverage as f32, seen: if is_seen { 1.0 } else { 0.0 } };
+            }
+        });
+        // Where the world ends in a pixel, the centre of a neighbour lies on the other side.
+        let mut pixels = centres.clone();
+        pixels.par_chunks_mut(width.max(1)).enumerate().for_each(|(j, row)| {
+            for (i, pixel) in row.iter_mut().enumerate().filter(|(_, pixel)| pixel.coverage > 0.0) {
+                let seen = pixel.seen;
+                if around(&centres, width, (i, j)).any(|other| other.coverage > 0.0 && other.seen != seen) {
+                    pixel.seen = seen_part(world, target, (i, j)).unwrap_or(seen);
+                }
             }
         });
         Self { pixels }
     }
 
-    /// Fills the pixels whose direction no view covers with a colour.
+    /// Lays a colour where no view covers the pixels: see [`Self::fill_by`].
     pub fn fill_unseen(&self, image: &mut Image<Rgba>, colour: Rgba) {
-        for (pixel, mask) in image.pixels_mut().iter_mut().zip(&self.pixels) {
-            if mask.unseen {
-                *pixel = colour * mask.coverage;
+        self.fill_by(image, |_, _| colour);
+    }
+
+    /// Lays light, by column and row, where no view covers the pixels. Pixels in which the world ends keep their own as far
+    /// as it is seen, so that its border is smooth. Those that a filter has left empty, since their centres are outside,
+    /// take the mean of their neighbours inside.
+    pub fn fill_by(&self, image: &mut Image<Rgba>, light: impl Fn(usize, usize) -> Rgba + Sync) {
+        let is_left = |(pixel, mask): (&Rgba, &MaskPixel)| pixel.alpha() == 0.0 && mask.seen > 0.0 && mask.seen < 0.5;
+        let both = image.pixels().iter().zip(&self.pixels).enumerate();
+        let left: Vec<usize> = both.filter(|(_, both)| is_left(*both)).map(|(index, _)| index).collect();
+        let taken: Vec<Rgba> = left.iter().map(|&index| self.mean_inside(image, index)).collect();
+        left.iter().zip(taken).for_each(|(&index, mean)| image.pixels_mut()[index] = mean);
+        let width = image.width().max(1);
+        let rows = image.pixels_mut().par_chunks_mut(width).zip(self.pixels.par_chunks(width)).enumerate();
+        rows.for_each(|(j, (row, masks))| {
+            for (i, (pixel, mask)) in row.iter_mut().zip(masks).enumerate() {
+                if mask.seen < 1.0 && mask.coverage > 0.0 {
+                    *pixel = *pixel * mask.seen + light(i, j) * (mask.coverage * (1.0 - mask.seen));
+                }
+            }
+        });
+    }
+
+    /// Returns the mean of the pixels around one whose centres the world covers.
+    fn mean_inside(&self, image: &Image<Rgba>, index: usize) -> Rgba {
+        let (width, place) = (image.width(), (index % image.width(), index / image.width()));
+        let (mut sum, mut count) = (Rgba::TRANSPARENT, 0.0);
+        for (pixel, mask) in around(image.pixels(), width, place).zip(around(&self.pixels, width, place)) {
+            if mask.seen >= 0.5 {
+                sum += *pixel;
+                count += 1.0;
             }
         }
+        if count > 0.0 { sum * (1.0 / count) } else { sum }
     }
 
     /// Repairs pixels with missing (NaN) texels in opaque worlds. What is left of a pixel is scaled to full coverage. A
@@ -52,7 +95,7 @@ impl ScreenMask {
         for (index, (pixel, mask)) in image.pixels_mut().iter_mut().zip(&self.pixels).enumerate() {
             if pixel.alpha() > ENOUGH * mask.coverage {
                 *pixel = *pixel * (mask.coverage / pixel.alpha());
-            } else if mask.coverage > 0.0 && !mask.unseen {
+            } else if mask.coverage > 0.0 && mask.seen >= 0.5 {
                 *pixel = Rgba::TRANSPARENT;
                 holes.push(index);
             }
@@ -73,15 +116,31 @@ impl ScreenMask {
     }
 }
 
+/// Returns the part of a pixel's field of view that the world covers; `None` where nothing of the field is sampled.
+fn seen_part(world: &World, target: &View, (i, j): (usize, usize)) -> Option<f32> {
+    let at = |pixel: usize, k: usize| pixel as f64 + (k as f64 + 0.5) / SUB_SAMPLES as f64;
+    let samples =
+        (0..SUB_SAMPLES * SUB_SAMPLES).map(|k| PixelPoint::new(at(i, k % SUB_SAMPLES), at(j, k / SUB_SAMPLES)));
+    let (mut shown, mut seen) = (0_u32, 0_u32);
+    for direction in samples.filter(|sample| target.shows(*sample)).filter_map(|sample| target.direction(sample)) {
+        shown += 1;
+        seen += u32::from(world.owner(direction).is_some());
+    }
+    (shown > 0).then(|| seen as f32 / shown as f32)
+}
+
+/// Visits a pixel and the eight around it.
+fn around<P>(pixels: &[P], width: usize, (i, j): (usize, usize)) -> impl Iterator<Item = &P> {
+    let height = pixels.len() / width.max(1);
+    let columns = i.saturating_sub(1)..width.min(i + 2);
+    (j.saturating_sub(1)..height.min(j + 2)).flat_map(move |row| &pixels[row * width..][columns.clone()])
+}
+
 /// Returns the opaque mean of the eight pixels around one; `None` if there is nothing in them.
 fn mean_around(image: &Image<Rgba>, index: usize) -> Option<Rgba> {
-    let (i, j) = (index % image.width(), index / image.width());
+    let place = (index % image.width(), index / image.width());
     let mut sum = Rgba::TRANSPARENT;
-    for row in j.saturating_sub(1)..image.height().min(j + 2) {
-        for column in i.saturating_sub(1)..image.width().min(i + 2) {
-            sum += *image.get(column, row);
-        }
-    }
+    around(image.pixels(), image.width(), place).for_each(|pixel| sum += *pixel);
     (sum.alpha() > 0.0).then(|| sum * sum.alpha().recip())
 }
 
@@ -89,7 +148,7 @@ fn mean_around(image: &Image<Rgba>, index: usize) -> Option<Rgba> {
 mod tests {
     use super::*;
     use crate::camera::{CameraModel, CubeFaceCamera, FisheyeCamera};
-    use crate::sphere::CubeFace;
+    use crate::sphere::{Angle, CubeFace, Orientation};
 
     fn front_and_fisheye() -> (World, View) {
         let front = CameraModel::CubeFace(CubeFaceCamera).view(8, 8).unwrap();
@@ -106,6 +165,40 @@ mod tests {
         assert_eq!(*image.get(20, 20), Rgba::BLACK);
         assert_eq!(*image.get(2, 20), red);
         assert_eq!(*image.get(0, 0), Rgba::BLACK);
+    }
+
+    #[test]
+    fn the_world_ends_by_coverage() {
+        // A square of 90° on the dome: 8 x 8 texels, and masks of other grids.
+        let (world, _) = front_and_fisheye();
+        for size in [31, 40, 97] {
+            let dome = CameraModel::Fisheye(FisheyeCamera::default()).view(size, size).unwrap();
+            let turned = Orientation::from_yaw_pitch_roll(
+                Angle::from_degrees(3.0),
+                Angle::from_degrees(-8.0),
+                Angle::from_degrees(20.0),
+            );
+            let target = View { orientation: turned, ..dome };
+            let mut image = Image::filled(size, size, Rgba::opaque(1.0, 1.0, 1.0));
+            ScreenMask::new(&world, &target).fill_unseen(&mut image, Rgba::TRANSPARENT);
+            let mut cut = 0;
+            for (j, i) in (0..size).flat_map(|j| (0..size).map(move |i| (j, i))) {
+                let Some(screen) = target.screen_pixel(i, j) else { continue };
+                // Every pixel by many samples.
+                let (mut shown, mut seen) = (0, 0);
+                for (y, x) in (0..50).flat_map(|y| (0..50).map(move |x| (y, x))) {
+                    let at = |pixel: usize, k: i32| pixel as f64 + (f64::from(k) + 0.5) / 50.0;
+                    let Some(direction) = target.direction(PixelPoint::new(at(i, x), at(j, y))) else { continue };
+                    shown += 1;
+                    seen += usize::from(world.owner(direction).is_some());
+                }
+                let part = seen as f32 / shown as f32;
+                let alpha = image.get(i, j).alpha();
+                assert!(screen.coverage < 1.0 || (alpha - part).abs() < 0.03, "{i},{j} of {size}: {alpha}, not {part}");
+                cut += usize::from(part > 0.05 && part < 0.95 && screen.coverage == 1.0);
+            }
+            assert!(cut > size, "{cut} pixels of {size} are cut");
+        }
     }
 
     #[test]

@@ -1,13 +1,13 @@
 //! Figure of a camera's path over the unfolded world.
 
-use super::magnification::central_footprint;
-use super::sheet::contour::Regions;
-use super::sheet::drawing::{Anchor, Drawing, Paint, Point, Rect};
-use super::sheet::field::shown;
-use super::sheet::heading::sheet;
-use super::sheet::net::Net;
-use super::sheet::theme::{CURVE, DARK, INK, LABEL, PAPER, colour};
 use crate::camera::{PixelPoint, View};
+use crate::explain::magnification::central_footprint;
+use crate::explain::sheet::contour::Regions;
+use crate::explain::sheet::drawing::{Anchor, Drawing, Paint, Point, Rect};
+use crate::explain::sheet::field::shown;
+use crate::explain::sheet::heading::sheet;
+use crate::explain::sheet::net::Net;
+use crate::explain::sheet::theme::{CURVE, DARK, INK, LABEL, PAPER, colour};
 use crate::sphere::Direction;
 use crate::world::{Source, World};
 

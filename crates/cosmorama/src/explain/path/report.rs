@@ -2,9 +2,9 @@ use std::fmt::{Display, Formatter};
 
 use rayon::prelude::*;
 
-use super::magnification::central_footprint;
-use super::{FaceSize, Percent};
 use crate::camera::View;
+use crate::explain::magnification::central_footprint;
+use crate::explain::{FaceSize, Percent};
 use crate::sphere::Direction;
 use crate::world::World;
 

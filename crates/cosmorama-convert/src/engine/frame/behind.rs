@@ -1,0 +1,81 @@
+//! The world behind the input's alpha.
+
+use std::sync::{Mutex, MutexGuard};
+
+use cosmorama::raster::{Image, Rgba};
+use cosmorama::render::{Progress, Stopped};
+use cosmorama_io::WriteOptions;
+use rayon::prelude::*;
+
+use super::pictures::lock;
+use crate::diagnostic::{Diagnostic, Result};
+use crate::engine::warnings::Tally;
+use crate::engine::{Engine, FrameFile, FrameLight, Stages, ViewImage, Which};
+use crate::job::ConvertJob;
+
+/// The world behind the input, with its light in the frame that is made.
+pub(super) struct Behind<'a> {
+    pub(super) engine: Engine<'a>,
+    held: Mutex<Held>,
+    tally: Mutex<Tally>,
+}
+
+/// Light of a backdrop's frame.
+struct Held {
+    light: FrameLight,
+    /// The frame; `None` before any is read.
+    frame: Option<Option<u64>>,
+}
+
+impl<'a> Behind<'a> {
+    /// Prepares the backdrop of a job, if it has one.
+    pub(super) fn new(job: &'a ConvertJob, progress: &dyn Progress) -> Result<Option<Box<Self>>, Stopped> {
+        let Some(backdrop) = &job.backdrop else { return Ok(None) };
+        let engine = Engine::new(backdrop, WriteOptions::default(), progress)?;
+        let held = Mutex::new(Held { light: engine.frame_light(), frame: None });
+        Ok(Some(Box::new(Self { engine, held, tally: Mutex::default() })))
+    }
+
+    /// Returns the diagnostics about its light in all frames.
+    pub(super) fn tallied(&self) -> Vec<Diagnostic> {
+        lock(&self.tally).warnings(self.engine.job)
+    }
+
+    /// Lays a picture over what lies behind it, in the frame at a place among all. `make` renders that from the backdrop's own
+    /// frame and its light.
+    pub(super) fn lay_under(
+        &self,
+        image: &mut Image<Rgba>,
+        place: usize,
+        make: impl FnOnce(&Engine<'a>, (Option<u64>, &FrameLight)) -> Result<Image<Rgba>>,
+    ) -> Result<()> {
+        let own = self.engine.job.input.frames[place];
+        let held = self.read(own)?;
+        let under = make(&self.engine, (own, &held.light))?;
+        image.pixels_mut().par_iter_mut().zip(under.pixels()).for_each(|(pixel, under)| *pixel = pixel.over(*under));
+        self.engine.pool().give_image(under);
+        Ok(())
+    }
+
+    /// Reads the light of a frame, unless it is held.
+    fn read(&self, frame: Option<u64>) -> Result<MutexGuard<'_, Held>> {
+        let (job, pool, mut held) = (self.engine.job, self.engine.pool(), lock(&self.held));
+        if held.frame == Some(frame) {
+            return Ok(held);
+        }
+        let is_first = held.frame.is_none();
+        let files = FrameFile::all(job, frame, if is_first { Which::All } else { Which::Moving });
+        // In the order of files, so that of several errors it is always the same that is told.
+        let read: Vec<Result<Vec<ViewImage>>> = files.into_par_iter().map(|file| file.read(job, pool)).collect();
+        let images: Vec<ViewImage> = read.into_iter().collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
+        held.light.fill(job, frame, &images, (&Stages::default(), pool))?;
+        images.into_iter().for_each(|image| pool.give(image.image.into_samples()));
+        held.frame = Some(frame);
+        lock(&self.tally).add(job, frame, &held.light);
+        self.engine.will_tell(self.engine.warnings(frame, &held.light));
+        if is_first {
+            self.engine.will_tell(self.engine.continuity(&held.light).into_iter().collect());
+        }
+        Ok(held)
+    }
+}

@@ -1,0 +1,192 @@
+//! Cameras and other nodes of glTF files whose animations turn them.
+
+mod buffers;
+mod scene;
+mod spin;
+
+use std::path::Path;
+
+use cosmorama::sphere::Orientation;
+use gltf::Gltf;
+use gltf::animation::Property;
+
+use super::error::wrong;
+use super::{CameraPath, CameraPathError, PathPose, PathSource};
+use buffers::Buffers;
+use scene::Scene;
+use spin::Spin;
+
+/// Poses in each frame where the turn between two keys is not at a constant rate about one axis.
+const POSES_A_FRAME: f64 = 4.0;
+
+/// Greatest number of frames; more is a mistake in the file's times.
+const MOST_FRAMES: f64 = 1_000_000.0;
+
+/// Greatest error of a frame's number by the rounding of its time.
+const ROUNDED: f64 = 1e-3;
+
+/// Returns whether a file is glTF, by its name.
+pub(super) fn is_named(name: &Path) -> bool {
+    let extension = name.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+    extension.eq_ignore_ascii_case("glb") || extension.eq_ignore_ascii_case("gltf")
+}
+
+/// Reads the turns of a camera, or of another node, from a file with times in seconds.
+pub(super) fn path(bytes: &[u8], source: &PathSource) -> Result<CameraPath, CameraPathError> {
+    let name = source.name;
+    let Gltf { document, blob } =
+        Gltf::from_slice(bytes).map_err(|error| wrong(name, format!("no valid glTF ({error})")))?;
+    let Some(fps) = source.fps else {
+        let reason = "poses are by time, so that the rate of frames (fps) is needed; give it";
+        return Err(CameraPathError { is_of_rate: true, ..wrong(name, reason) });
+    };
+    let scene = Scene::new(&document);
+    let node = scene.choose(source)?;
+    let chain = scene.chain(node);
+    let Some(animation) = scene.animation(node) else {
+        let reason = format!(
+            "nothing turns {}; turn it with yaw, pitch and roll, or name a node that an animation turns",
+            scene.name_of(node)
+        );
+        return Err(wrong(name, reason));
+    };
+    let buffers = Buffers { name, blob: blob.as_deref(), beside: source.beside };
+    let spins = chain.iter().map(|node| Spin::of(&scene.node(*node), &animation, &buffers));
+    let spins: Vec<Spin> = spins.collect::<Result<_, _>>()?;
+    let frames = frames(&spins, fps).ok_or_else(|| {
+        wrong(
+            name,
+            format!("its animation is longer than {MOST_FRAMES} frames at {fps} frames a second; check the times"),
+        )
+    })?;
+    let pose = |frame: f64| {
+        let orientation = spins.iter().fold(Orientation::IDENTITY, |outer, spin| spin.at(frame / fps).within(outer));
+        PathPose { frame, orientation, fov: None }
+    };
+    let goes = animation.channels().any(|channel| {
+        channel.target().property() == Property::Translation && chain.contains(&channel.target().node().index())
+    });
+    let remark = || {
+        format!(
+            "{} also goes from place to place, which a picture of a world does not show; explain tells how much that matters",
+            scene.name_of(node)
+        )
+    };
+    let remarks = goes.then(remark).into_iter().collect();
+    Ok(CameraPath { poses: frames.into_iter().map(pose).collect(), ignored: Vec::new(), remarks })
+}
+
+/// Returns the frames at which poses are taken: those of the keys, and more where the turn between them is uneven. `None` if
+/// there are too many.
+fn frames(spins: &[Spin], fps: f64) -> Option<Vec<f64>> {
+    let mut frames: Vec<f64> = spins.iter().flat_map(Spin::times).map(|time| snapped(time * fps)).collect();
+    frames.sort_by(f64::total_cmp);
+    let (first, last) = (*frames.first()?, *frames.last()?);
+    if last - first > MOST_FRAMES {
+        return None;
+    }
+    let mut moving = spins.iter().filter(|spin| spin.moves());
+    let is_even = moving.next().is_none_or(Spin::is_even) && moving.next().is_none();
+    if !is_even {
+        let steps = ((last - first) * POSES_A_FRAME).floor() as usize;
+        frames.extend((0..=steps).map(|step| first + step as f64 / POSES_A_FRAME));
+        frames.sort_by(f64::total_cmp);
+    }
+    frames.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+    Some(frames)
+}
+
+/// Returns a frame without the error of a time in single precision.
+fn snapped(frame: f64) -> f64 {
+    if (frame - frame.round()).abs() < ROUNDED { frame.round() } else { frame }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io;
+
+    use super::*;
+
+    /// Writes a file of a camera on a turning arm, with two keys each: the arm turns by 90° to the left in one second, and
+    /// the camera looks up by 30°, evenly.
+    fn file(arm: bool) -> Vec<u8> {
+        let [quarter, twelfth] = [45_f32, 15.0].map(|half| half.to_radians().sin_cos());
+        let numbers: [f32; 18] = [
+            0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, quarter.0, 0.0, quarter.1, 0.0, 0.0, 0.0, 1.0, twelfth.0, 0.0, 0.0,
+            twelfth.1,
+        ];
+        let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
+        let channel = |sampler: usize, node: usize| {
+            format!(r#"{{"sampler":{sampler},"target":{{"node":{node},"path":"rotation"}}}}"#)
+        };
+        let channels = if arm { format!("{},{}", channel(0, 0), channel(1, 1)) } else { channel(1, 1) };
+        let json = format!(
+            r#"{{"asset":{{"version":"2.0"}},"buffers":[{{"byteLength":72}}],
+            "bufferViews":[{{"buffer":0,"byteLength":72}}],
+            "accessors":[{{"bufferView":0,"componentType":5126,"count":2,"type":"SCALAR","min":[0],"max":[1]}},
+            {{"bufferView":0,"byteOffset":8,"componentType":5126,"count":2,"type":"VEC4"}},
+            {{"bufferView":0,"byteOffset":40,"componentType":5126,"count":2,"type":"VEC4"}}],
+            "cameras":[{{"type":"perspective","perspective":{{"yfov":0.8,"znear":0.1}}}}],
+            "nodes":[{{"name":"Arm","children":[1]}},{{"name":"Shot","camera":0}},{{"name":"Rest","camera":0}}],
+            "scenes":[{{"nodes":[0,2]}}],
+            "animations":[{{"samplers":[{{"input":0,"output":1}},{{"input":0,"output":2}}],"channels":[{channels}]}}]}}"#
+        );
+        let mut json = json.into_bytes();
+        json.resize(json.len().next_multiple_of(4), b' ');
+        let length = 12 + 8 + json.len() + 8 + bytes.len();
+        let mut file = b"glTF".to_vec();
+        file.extend([2, length as u32].iter().flat_map(|number| number.to_le_bytes()));
+        file.extend((json.len() as u32).to_le_bytes());
+        file.extend(b"JSON");
+        file.extend(json);
+        file.extend((bytes.len() as u32).to_le_bytes());
+        file.extend(b"BIN\0");
+        file.extend(bytes);
+        file
+    }
+
+    fn read(bytes: &[u8], fps: Option<f64>, node: Option<&str>) -> Result<CameraPath, String> {
+        let beside = |_: &Path| Err(io::ErrorKind::NotFound.into());
+        let source = PathSource { name: Path::new("shot.glb"), fps, node, is_of_input: false, beside: &beside };
+        CameraPath::read(bytes, &source).map_err(|error| error.to_string())
+    }
+
+    fn angles(pose: &PathPose) -> [f64; 3] {
+        pose.orientation.yaw_pitch_roll().map(|angle| (angle.degrees() * 1e3).round() / 1e3)
+    }
+
+    #[test]
+    fn a_camera_turns_with_what_it_hangs_on() {
+        // Alone, it turns evenly, and its keys are enough.
+        let path = read(&file(false), Some(24.0), None).unwrap();
+        assert_eq!(path.poses.iter().map(|pose| pose.frame).collect::<Vec<_>>(), [0.0, 24.0]);
+        assert_eq!(angles(&path.poses[1]), [0.0, 30.0, 0.0]);
+        let path = read(&file(true), Some(24.0), Some("Shot")).unwrap();
+        assert_eq!(path.poses.len(), 97);
+        assert_eq!(angles(&path.poses[96]), [-90.0, 30.0, 0.0]);
+        assert_eq!(angles(&path.poses[48]), [-45.0, 15.0, 0.0]);
+        assert_eq!(angles(&read(&file(true), Some(24.0), Some("Arm")).unwrap().poses[1]), [-90.0, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn what_is_wrong_is_named() {
+        let whole = file(true);
+        let cases: [(&[u8], Option<f64>, Option<&str>, &str); 5] = [
+            (&whole, None, None, "rate of frames"),
+            (&whole, Some(24.0), Some("Crane"), "no camera or node Crane; there are Arm, Shot and Rest"),
+            (&whole, Some(24.0), Some("Rest"), "nothing turns Rest"),
+            (&whole[..whole.len() - 20], Some(24.0), None, "no valid glTF"),
+            (b"glTF", Some(24.0), None, "no valid glTF"),
+        ];
+        for (bytes, fps, node, words) in cases {
+            let found = read(bytes, fps, node).unwrap_err();
+            assert!(found.contains(words), "{found}");
+        }
+        // Whatever is damaged, nothing panics.
+        for at in 0..whole.len() {
+            let mut damaged = whole.clone();
+            damaged[at] = damaged[at].wrapping_add(1);
+            let _ = read(&damaged, Some(24.0), None);
+        }
+    }
+}
