@@ -9,10 +9,10 @@ pub(crate) mod view_files;
 pub(crate) mod wanted_frames;
 
 pub use access::{Disk, Files, InMemory, probe, read};
-pub use wanted_frames::existing as existing_frames;
 pub use memory_budget::MemoryBudget;
 pub use system_memory::peak_bytes;
 pub use view_files::ViewFiles;
+pub use wanted_frames::existing as existing_frames;
 
 pub(crate) use access::{Access, ChosenFiles, read_further, read_in};
 pub(crate) use decoded_picture::DecodedPicture;
