@@ -68,7 +68,11 @@ impl<'a> Surroundings<'a> {
                 let settings = FilterSettings { kernel: SIDE_BY_SIDE, anti_ringing: false, ..filter };
                 Some(settings.prepare(sky.world, sky.light)?)
             }
-            FilterKind::Point | FilterKind::Bilinear | FilterKind::Labels(_) | FilterKind::Reference { .. } => None,
+            FilterKind::Point
+            | FilterKind::Bilinear
+            | FilterKind::Labels(_)
+            | FilterKind::Classic(_)
+            | FilterKind::Reference { .. } => None,
         };
         Ok(Self {
             parts,

@@ -1,19 +1,20 @@
 use std::fmt;
 use std::str::FromStr;
 
-use cosmorama::filter::{FilterKind, LabelRule};
+use cosmorama::filter::{Classic, FilterKind, LabelRule, MipChoice};
 
 use super::names;
 use crate::WordError;
 
-/// A filter by name: `ewa`, `ewa-pyramid`, `point`, `bilinear` or `reference[:samples=N]`; for labels, `labels:nearest` or
+/// A filter by name: `ewa`, `ewa-pyramid`, `point`, `bilinear`, `reference[:samples=N]`, or one of the literature, such as
+/// `summed-area`; for labels, `labels:nearest` or
 /// `labels:vote`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FilterName(pub FilterKind);
 
 impl FilterName {
     /// All names with a line of help, in the order of the help.
-    pub const NAMES: [(&str, &str); 5] = names::FILTERS;
+    pub const NAMES: [(&str, &str); 14] = names::FILTERS;
 }
 
 impl fmt::Display for FilterName {
@@ -25,9 +26,25 @@ impl fmt::Display for FilterName {
             FilterKind::Bilinear => f.write_str("bilinear"),
             FilterKind::Labels(LabelRule::Nearest) => f.write_str("labels:nearest"),
             FilterKind::Labels(LabelRule::Vote) => f.write_str("labels:vote"),
+            FilterKind::Classic(classic) => f.write_str(classic_name(classic)),
             FilterKind::Reference { samples: SAMPLES } => f.write_str("reference"),
             FilterKind::Reference { samples } => write!(f, "reference:samples={samples}"),
         }
+    }
+}
+
+/// Returns the name of a filter of the literature.
+fn classic_name(classic: Classic) -> &'static str {
+    match classic {
+        Classic::MipMap(MipChoice::Trilinear) => "mipmap",
+        Classic::MipMap(MipChoice::Nearest) => "mipmap:levels=nearest",
+        Classic::SummedArea => "summed-area",
+        Classic::Catmull => "catmull",
+        Classic::BlinnNewell => "blinn-newell",
+        Classic::FeibushLevoyCook => "feibush-levoy-cook",
+        Classic::Gangnet => "gangnet",
+        Classic::EwaPaper => "ewa:paper",
+        Classic::EwaInteger => "ewa:integer",
     }
 }
 
@@ -52,7 +69,10 @@ impl FromStr for FilterName {
                 "labels:nearest" => Ok(Self(FilterKind::Labels(LabelRule::Nearest))),
                 "labels:vote" => Ok(Self(FilterKind::Labels(LabelRule::Vote))),
                 "reference" => Ok(Self(FilterKind::Reference { samples: SAMPLES })),
-                _ => Err(names::no_filter(text)),
+                _ => {
+                    let named = Classic::ALL.into_iter().find(|classic| classic_name(*classic) == text);
+                    named.map(|classic| Self(FilterKind::Classic(classic))).ok_or_else(|| names::no_filter(text))
+                }
             },
         }
     }

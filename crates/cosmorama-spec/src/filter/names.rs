@@ -3,12 +3,21 @@
 use crate::error::{WordError, WordKind, nearest};
 
 /// Filters, each with a line of help.
-pub(super) const FILTERS: [(&str, &str); 5] = [
+pub(super) const FILTERS: [(&str, &str); 14] = [
     ("ewa", "Elliptical weighted average of all texels under a pixel"),
     ("ewa-pyramid", "The same from smaller copies: bounded time at any shrink, about 40 dB from ewa"),
     ("point", "The texel under a pixel's centre"),
     ("bilinear", "Four texels around a pixel's centre"),
     ("reference", "Brute force, N by N samples a pixel (:samples=N, 1 to 64)"),
+    ("mipmap", "Williams' trilinear pyramid of squares"),
+    ("mipmap:levels=nearest", "Squares of the nearest level (Dungan, Stenger, Sutty)"),
+    ("summed-area", "Crow's rectangles by a table of sums"),
+    ("catmull", "Exact areas under the pixel, evenly weighted"),
+    ("blinn-newell", "A pyramid over the parallelogram of a pixel"),
+    ("feibush-levoy-cook", "Texels weighed on the screen by a table"),
+    ("gangnet", "Samples of the screen in a round kernel"),
+    ("ewa:paper", "EWA as printed in 1986: a Gaussian, finite differences"),
+    ("ewa:integer", "The same in integers"),
 ];
 
 /// Kernels, each with a line of help.
@@ -46,15 +55,16 @@ const KERNEL_WORDS: [(&str, &str); 14] = [
 ];
 
 /// Other programs' words for filters, each with our name.
-const FILTER_WORDS: [(&str, &str); 12] = [
+const FILTER_WORDS: [(&str, &str); 13] = [
     ("nearest", "point"),
     ("near", "point"),
     ("neighbor", "point"),
     ("neighbour", "point"),
     ("none", "point"),
     ("linear", "bilinear"),
-    ("mipmap", "ewa-pyramid"),
-    ("trilinear", "ewa-pyramid"),
+    ("mip", "mipmap"),
+    ("trilinear", "mipmap"),
+    ("sat", "summed-area"),
     ("pyramid", "ewa-pyramid"),
     ("supersampling", "reference"),
     ("supersample", "reference"),
@@ -67,7 +77,8 @@ pub(super) fn no_filter(text: &str) -> WordError {
     let keys = &text[name.len()..];
     let (names, word) = (FILTERS.map(|(name, _)| name), text.to_owned());
     if names.contains(&name) {
-        let keys = "only reference takes a key, samples=N, as in reference:samples=8";
+        let keys = "only reference takes a key, samples=N, as in reference:samples=8; others by a second word are \
+                    mipmap:levels=nearest, ewa:paper and ewa:integer";
         return WordError::Parameter(format!("'{text}': {keys}"));
     }
     if let Some(kernel) = meaning(&KERNEL_WORDS, name) {

@@ -1,5 +1,6 @@
 //! Filters: what is averaged over a footprint.
 
+pub(crate) mod classic;
 pub(crate) mod ewa;
 pub(crate) mod ewa_pyramid;
 pub(crate) mod gather;
@@ -12,6 +13,7 @@ pub(crate) mod settings;
 pub(crate) mod taps;
 pub(crate) mod traits;
 
+pub use classic::{Classic, MipChoice};
 pub use ewa::Ewa;
 pub use ewa::paper::{TextureDerivatives, WeightTable, ewa};
 pub use ewa_pyramid::EwaPyramid;

@@ -28,7 +28,7 @@ impl<'a> PixelTaps<'a> {
     }
 
     /// Returns the taps of a pixel, whose weights add to one. `None` for the reference filter, which has too many to
-    /// list.
+    /// list, and for filters that have none.
     pub(crate) fn taps(&mut self, screen: &ScreenPixel) -> Option<&Taps> {
         let (direction, taps) = (screen.footprint.direction, &mut self.taps);
         match self.filter.kind {
@@ -44,7 +44,7 @@ impl<'a> PixelTaps<'a> {
                 lookup::bilinear(self.world, direction, |texel, weight| taps.push_under(texel, weight as f32));
                 taps.normalise();
             }
-            FilterKind::Reference { .. } => return None,
+            FilterKind::Classic(_) | FilterKind::Reference { .. } => return None,
         }
         Some(&self.taps)
     }

@@ -1,4 +1,6 @@
-use super::{Bilinear, Ewa, EwaPyramid, Filter, Kernel, LabelRule, Labels, Point, Prepared, Reference, SetupCost};
+use super::{
+    Bilinear, Classic, Ewa, EwaPyramid, Filter, Kernel, LabelRule, Labels, Point, Prepared, Reference, SetupCost,
+};
 use crate::world::{Light, LightError, World};
 
 /// Method that makes a pixel of the texels under a footprint.
@@ -15,6 +17,8 @@ pub enum FilterKind {
     Bilinear,
     /// One texel's value, chosen by a rule and never mixed with others: for labels.
     Labels(LabelRule),
+    /// A filter of the literature, to compare with.
+    Classic(Classic),
     /// N×N sub-samples a pixel through the exact mapping. It is slow, and the other methods are judged by it. Each
     /// sub-sample interpolates between texels, so the kernel's floor and its centring are not needed and have no
     /// effect.
@@ -40,7 +44,7 @@ impl FilterKind {
     pub fn uses_kernel(self) -> bool {
         match self {
             Self::Ewa | Self::EwaPyramid | Self::Labels(LabelRule::Vote) | Self::Reference { .. } => true,
-            Self::Point | Self::Bilinear | Self::Labels(LabelRule::Nearest) => false,
+            Self::Point | Self::Bilinear | Self::Labels(LabelRule::Nearest) | Self::Classic(_) => false,
         }
     }
 
@@ -48,7 +52,15 @@ impl FilterKind {
     pub(crate) fn is_elliptical(self) -> bool {
         match self {
             Self::Ewa | Self::EwaPyramid => true,
-            Self::Point | Self::Bilinear | Self::Labels(_) | Self::Reference { .. } => false,
+            Self::Point | Self::Bilinear | Self::Labels(_) | Self::Classic(_) | Self::Reference { .. } => false,
+        }
+    }
+
+    /// Returns whether the texels of a pixel can be listed; of other filters, what they reach is known.
+    pub(crate) fn lists_texels(self) -> bool {
+        match self {
+            Self::Ewa | Self::Point | Self::Bilinear | Self::Labels(_) | Self::Reference { .. } => true,
+            Self::EwaPyramid | Self::Classic(_) => false,
         }
     }
 
@@ -56,7 +68,7 @@ impl FilterKind {
     pub(crate) fn chooses_texels(self) -> bool {
         match self {
             Self::Point | Self::Labels(_) => true,
-            Self::Ewa | Self::EwaPyramid | Self::Bilinear | Self::Reference { .. } => false,
+            Self::Ewa | Self::EwaPyramid | Self::Bilinear | Self::Classic(_) | Self::Reference { .. } => false,
         }
     }
 }
@@ -75,6 +87,7 @@ impl FilterSettings {
             FilterKind::EwaPyramid => Box::new(EwaPyramid { kernel, anti_ringing }),
             FilterKind::Point => Box::new(Point),
             FilterKind::Bilinear => Box::new(Bilinear),
+            FilterKind::Classic(classic) => Box::new(classic),
             FilterKind::Labels(rule) => Box::new(Labels { rule, kernel }),
             FilterKind::Reference { samples } => Box::new(Reference { samples, kernel, anti_ringing }),
         }
@@ -87,6 +100,7 @@ impl FilterSettings {
             // A texel of the coarser level is at most as wide as a pixel. The kernel grows by its floor in such texels,
             // and by one texel for interpolation.
             FilterKind::EwaPyramid => Kernel { scale: kernel.scale + kernel.floor + 1.0, ..kernel },
+            FilterKind::Classic(_) => Classic::REACH,
             FilterKind::Ewa
             | FilterKind::Point
             | FilterKind::Bilinear

@@ -13,11 +13,16 @@ use crate::raster::{Image, Rgba};
 pub fn picture(prepared: &dyn Prepared, target: &View) -> Image<Rgba> {
     let mut image = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
     image.pixels_mut().par_chunks_mut(target.width().max(1)).enumerate().for_each(|(j, row)| {
-        for (i, pixel) in row.iter_mut().enumerate() {
-            if let Some(screen) = target.screen_pixel(i, j) {
-                *pixel = prepared.average(&screen.footprint) * screen.coverage as f32;
-            }
-        }
+        fill_row(prepared, target, (j, row));
     });
     image
+}
+
+/// Makes the pixels of a row.
+pub(super) fn fill_row(prepared: &dyn Prepared, target: &View, (j, row): (usize, &mut [Rgba])) {
+    for (i, pixel) in row.iter_mut().enumerate() {
+        if let Some(screen) = target.screen_pixel(i, j) {
+            *pixel = prepared.average(&screen.footprint) * screen.coverage as f32;
+        }
+    }
 }

@@ -7,7 +7,7 @@ use super::apply::float::FloatArithmetic;
 use super::batch::window::Level;
 use super::plan::{self, Arithmetic, Plan};
 use super::progress::Watch;
-use super::{Resampler, pyramid};
+use super::{Resampler, picture, pyramid};
 use crate::filter::lookup::labels::PreparedLabels;
 use crate::filter::{FilterKind, Labels, reference};
 use crate::raster::{FixedCodec, FixedLight, Image, Rgba};
@@ -49,6 +49,10 @@ impl Resampler<'_> {
                 let labels = Labels { rule, kernel: self.filter.kernel };
                 let prepared = PreparedLabels::new(&labels, self.world, texels);
                 self.by_rows(watch, |row| prepared.fill_row(self.target, row))
+            }
+            FilterKind::Classic(classic) => {
+                let prepared = classic.of_texels(self.world, texels);
+                self.by_rows(watch, |row| picture::fill_row(&*prepared, self.target, row))
             }
             FilterKind::EwaPyramid => pyramid::render(self, texels, watch),
         };

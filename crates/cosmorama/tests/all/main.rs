@@ -12,6 +12,7 @@ mod round_trips;
 mod filter {
     mod aliasing;
     mod bound;
+    mod classic;
     mod footprint;
     mod labels;
     mod position;

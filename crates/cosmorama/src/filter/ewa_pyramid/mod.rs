@@ -36,32 +36,58 @@ impl Default for EwaPyramid {
 impl Filter for EwaPyramid {
     fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, LightError> {
         light.check(world)?;
-        let mut coarser: Vec<(World, Vec<Rgba>)> = Vec::new();
-        loop {
-            let (finer, texels) = coarser.last().map_or((world, light.texels()), |(world, texels)| (world, texels));
-            let Some(halved) = finer.halved() else { break };
-            let texels = Halving::new(finer, &halved, None).light(texels);
-            coarser.push((halved, texels));
-        }
-        let pinholes = std::iter::once(world).chain(coarser.iter().map(|(world, _)| world)).map(Pinholes::of).collect();
+        let levels = Levels::new(world, light.texels());
+        let pinholes = (0..=levels.coarsest()).map(|level| Pinholes::of(levels.get(level).0)).collect();
         let average = Averager::new(&Ewa { kernel: self.kernel, anti_ringing: self.anti_ringing });
         let rule = LevelRule::new(world, &self.kernel);
-        Ok(Box::new(PreparedPyramid { world, light: light.texels(), coarser, pinholes, rule, average }))
+        Ok(Box::new(PreparedPyramid { levels, pinholes, rule, average }))
     }
 
     fn setup(&self, world: &World) -> SetupCost {
-        // All coarser levels together have a third of the texels. For each texel they keep its light and its solid
-        // angle.
-        let texels = world.texel_count();
-        SetupCost { texels, bytes: texels / 3 * (size_of::<Rgba>() + size_of::<f32>()) }
+        SetupCost { texels: world.texel_count(), bytes: Levels::bytes(world) }
     }
 }
 
-struct PreparedPyramid<'w> {
+/// A world with its light, and halved copies.
+pub(crate) struct Levels<'w> {
     world: &'w World,
     light: &'w [Rgba],
     /// Halved worlds and their light, from level 1 on.
     coarser: Vec<(World, Vec<Rgba>)>,
+}
+
+impl<'w> Levels<'w> {
+    /// Halves a world until nothing is left to halve.
+    pub(crate) fn new(world: &'w World, light: &'w [Rgba]) -> Self {
+        let mut coarser: Vec<(World, Vec<Rgba>)> = Vec::new();
+        loop {
+            let (finer, texels) = coarser.last().map_or((world, light), |(world, texels)| (world, texels));
+            let Some(halved) = finer.halved() else { break };
+            let texels = Halving::new(finer, &halved, None).light(texels);
+            coarser.push((halved, texels));
+        }
+        Self { world, light, coarser }
+    }
+
+    /// Returns the bytes that a world's coarser levels take. All together they have a third of its texels, and keep light
+    /// and solid angle of each.
+    pub(crate) fn bytes(world: &World) -> usize {
+        world.texel_count() / 3 * (size_of::<Rgba>() + size_of::<f32>())
+    }
+
+    /// Returns a level's world and its light; level 0 is the whole one.
+    pub(crate) fn get(&self, level: usize) -> (&World, &[Rgba]) {
+        level.checked_sub(1).map_or((self.world, self.light), |at| (&self.coarser[at].0, &self.coarser[at].1))
+    }
+
+    /// Returns the number of the coarsest level.
+    pub(crate) fn coarsest(&self) -> usize {
+        self.coarser.len()
+    }
+}
+
+struct PreparedPyramid<'w> {
+    levels: Levels<'w>,
     /// Pinhole views of each level, if all views of the level are pinholes.
     pinholes: Vec<Option<Pinholes>>,
     rule: LevelRule,
@@ -69,25 +95,20 @@ struct PreparedPyramid<'w> {
 }
 
 impl PreparedPyramid<'_> {
-    /// Returns a level's world and its light.
-    fn level(&self, level: usize) -> (&World, &[Rgba]) {
-        level.checked_sub(1).map_or((self.world, self.light), |at| (&self.coarser[at].0, &self.coarser[at].1))
-    }
-
     /// Returns the level number for a footprint, as [`LevelRule`] defines it, and the view that shows the footprint's
     /// centre.
     fn number(&self, footprint: &Footprint) -> (f32, Option<usize>) {
         let holder = self.pinholes[0].as_ref().and_then(|pinholes| pinholes.holder(footprint.direction));
-        let view = holder.or_else(|| self.world.owner(footprint.direction).map(|(view, _)| view));
+        let view = holder.or_else(|| self.levels.world.owner(footprint.direction).map(|(view, _)| view));
         let level = self.rule.level(view, footprint, LevelNeed::default());
-        let coarsest = self.coarser.len() as f32;
+        let coarsest = self.levels.coarsest() as f32;
         (level.map_or(0.0, |level| level as f32).clamp(0.0, coarsest), view)
     }
 }
 
 impl Prepared for PreparedPyramid<'_> {
     fn world(&self) -> &World {
-        self.world
+        self.levels.world
     }
 
     fn average(&self, footprint: &Footprint) -> Rgba {
@@ -98,7 +119,7 @@ impl Prepared for PreparedPyramid<'_> {
         for level in finer..=finer + 1 {
             let part = part(number, level);
             if part > 0.0 {
-                let (world, light) = self.level(level);
+                let (world, light) = self.levels.get(level);
                 sum += self.average.of((world, self.pinholes[level].as_ref()), light, &footprint, view) * part;
             }
         }

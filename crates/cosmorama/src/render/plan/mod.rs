@@ -62,12 +62,12 @@ pub enum Arithmetic {
 
 impl Arithmetic {
     /// Returns whether there are plans of a filter in these numbers. The reference has too many samples to keep, labels are
-    /// chosen by their values, and the levels of a pyramid are floats.
+    /// chosen by their values, other filters work pixel by pixel, and the levels of a pyramid are floats.
     pub fn has_plan_of(self, filter: FilterKind) -> bool {
         match filter {
             FilterKind::Ewa | FilterKind::Point | FilterKind::Bilinear => true,
             FilterKind::EwaPyramid => self == Self::Float,
-            FilterKind::Labels(_) | FilterKind::Reference { .. } => false,
+            FilterKind::Labels(_) | FilterKind::Classic(_) | FilterKind::Reference { .. } => false,
         }
     }
 }

@@ -4,10 +4,10 @@ use rayon::prelude::*;
 
 use super::block::Block;
 use crate::camera::{PixelPoint, PixelRect, View};
+use crate::filter::FilterSettings;
 use crate::filter::gather::cap::Cap;
 use crate::filter::kernel::KernelTable;
 use crate::filter::pixel_taps::PixelTaps;
-use crate::filter::{FilterKind, FilterSettings};
 use crate::render::Uncovered;
 use crate::sphere::Direction;
 use crate::world::{Source, World};
@@ -46,11 +46,11 @@ pub enum Accuracy {
 impl Needs {
     /// Finds what `targets` need of the world's views when they are made with `filter`.
     ///
-    /// The world needs no light, so it may hold nominal views of missing images. For `ewa-pyramid` the result is an
-    /// upper bound.
+    /// The world needs no light, so it may hold nominal views of missing images. For filters whose texels are not
+    /// listed, such as `ewa-pyramid`, the result is an upper bound.
     pub fn of(world: &World, targets: &[View], filter: &FilterSettings, accuracy: Accuracy) -> Self {
         match accuracy {
-            Accuracy::Exact if filter.kind == FilterKind::EwaPyramid => Self::at_most(world, targets, filter),
+            Accuracy::Exact if !filter.kind.lists_texels() => Self::at_most(world, targets, filter),
             Accuracy::Exact => Self::surveyed(world, targets, filter, Reads::Exactly),
             Accuracy::Bounds => {
                 let quick = Self::within_reach(world, targets, filter);
@@ -67,7 +67,7 @@ impl Needs {
     /// Decides whether views that no pixel's direction falls on are still read by the kernels around.
     fn settled(mut self, world: &World, targets: &[View], filter: &FilterSettings) -> Self {
         let asked: Vec<bool> = self.views.iter().map(|need| need.seen.is_none() && need.read.is_some()).collect();
-        if filter.kind == FilterKind::EwaPyramid || !asked.contains(&true) {
+        if !filter.kind.lists_texels() || !asked.contains(&true) {
             return self;
         }
         let undecided = self.views.iter_mut().zip(&asked).filter(|(_, asked)| **asked);
@@ -245,7 +245,7 @@ impl Survey<'_> {
             if reads_nothing_new {
                 continue;
             }
-            if self.filter.kind == FilterKind::EwaPyramid {
+            if !self.filter.kind.lists_texels() {
                 let cap = Cap::around(screen.footprint.direction, &[screen.footprint]);
                 cap.iter().for_each(|cap| self.add_reach(cap, needs));
             } else {

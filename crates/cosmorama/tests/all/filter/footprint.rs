@@ -1,7 +1,7 @@
 //! The one door: a world averaged over a footprint, by every filter.
 
 use cosmorama::camera::{CameraModel, Covariance, Footprint, MirrorBallCamera, View};
-use cosmorama::filter::{Filter, FilterKind, FilterSettings, Prepared};
+use cosmorama::filter::{Classic, Filter, FilterKind, FilterSettings, Prepared};
 use cosmorama::raster::{Image, Rgba};
 use cosmorama::render::{Resampler, picture};
 use cosmorama::sphere::{CubeFace, Direction};
@@ -16,6 +16,10 @@ const KINDS: [FilterKind; 5] = [
     FilterKind::Bilinear,
     FilterKind::Reference { samples: 4 },
 ];
+
+fn kinds() -> impl Iterator<Item = FilterKind> {
+    KINDS.into_iter().chain(Classic::ALL.map(FilterKind::Classic))
+}
 
 fn filter(kind: FilterKind) -> FilterSettings {
     FilterSettings { kind, ..FilterSettings::DEFAULT }
@@ -136,9 +140,10 @@ fn a_constant_world_stays_constant() {
     let colour = Rgba::opaque(0.3, 0.7, 12.0);
     for (name, world) in [("cube", cube(&CubeFace::ALL, 64, 64)), ("panorama", one(equirect(128)))] {
         let light = Light::by_direction(&world, |_| colour);
-        for kind in KINDS {
+        for kind in kinds() {
             let prepared = filter(kind).prepare(&world, &light).expect("light of the world");
-            let least = if matches!(kind, FilterKind::Reference { .. }) { 10 } else { 1 };
+            let is_slow = matches!(kind, FilterKind::Reference { .. } | FilterKind::Classic(_));
+            let least = if is_slow { 10 } else { 1 };
             for footprint in footprints().chain(odd_footprints()).step_by(least) {
                 let pixel = prepared.average(&footprint);
                 let error = (0..4).map(|c| (pixel.0[c] / colour.0[c] - 1.0).abs()).fold(0.0, f32::max);
@@ -154,7 +159,7 @@ fn a_constant_world_stays_constant() {
 fn what_is_no_footprint_sees_nothing() {
     let world = one(equirect(64));
     let light = Light::by_direction(&world, |_| Rgba::opaque(1.0, 1.0, 1.0));
-    for kind in KINDS {
+    for kind in kinds() {
         let prepared = filter(kind).prepare(&world, &light).expect("light of the world");
         for wrong in [f64::NAN, f64::INFINITY] {
             for (dx, dy) in [(DVec3::X * wrong, DVec3::Y), (DVec3::X * 0.01, DVec3::splat(wrong))] {
@@ -215,7 +220,7 @@ fn a_lobe_blurs_as_its_covariance_says() {
 fn what_no_view_shows_is_told() {
     let world = cube(&[CubeFace::Front], 32, 32);
     let light = Light::by_direction(&world, |_| Rgba::opaque(0.5, 0.5, 0.5));
-    for kind in KINDS {
+    for kind in kinds() {
         let prepared = filter(kind).prepare(&world, &light).expect("light of the world");
         let at = |degrees: f64| {
             let (sin, cos) = degrees.to_radians().sin_cos();
@@ -239,10 +244,16 @@ fn what_no_view_shows_is_told() {
 fn light_of_another_world_is_refused() {
     let (world, other) = (one(equirect(64)), one(equirect(32)));
     let light = Light::by_direction(&other, |_| Rgba::BLACK);
-    for kind in KINDS {
+    for kind in kinds() {
         assert_eq!(filter(kind).prepare(&world, &light).err(), Some(LightError::WrongViews));
         let setup = filter(kind).setup(&world);
-        assert_eq!(setup.bytes > 0, kind == FilterKind::EwaPyramid);
+        let keeps = |classic| matches!(classic, Classic::MipMap(_) | Classic::SummedArea);
+        let expected = match kind {
+            FilterKind::EwaPyramid => true,
+            FilterKind::Classic(classic) => keeps(classic),
+            _ => false,
+        };
+        assert_eq!(setup.bytes > 0, expected, "{kind:?}");
     }
 }
 

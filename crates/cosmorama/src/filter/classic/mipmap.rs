@@ -1,0 +1,62 @@
+use crate::camera::Footprint;
+use crate::filter::ewa_pyramid::Levels;
+use crate::filter::lookup;
+use crate::filter::reference::look;
+use crate::filter::traits::{Prepared, bounded};
+use crate::raster::Rgba;
+use crate::world::World;
+
+/// Choice among the levels of a mip map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum MipChoice {
+    /// The nearest texel of the nearest level (Dungan, Stenger & Sutty 1978).
+    Nearest,
+    /// Bilinear interpolation on the two levels around, and between them (Williams 1983).
+    Trilinear,
+}
+
+/// Squares of texels, averaged beforehand. A footprint's longer derivative chooses the level, so that what is narrow one
+/// way is blurred that way.
+pub(super) struct PreparedMipMap<'w> {
+    pub(super) levels: Levels<'w>,
+    pub(super) choice: MipChoice,
+}
+
+impl PreparedMipMap<'_> {
+    /// Returns the level whose texels are as wide as the longer derivative, in the view that shows the middle.
+    fn level(&self, footprint: &Footprint) -> f64 {
+        let (world, _) = self.levels.get(0);
+        let owner = world.owner(footprint.direction);
+        let seen = owner.and_then(|(view, _)| world.sources()[view].view.texel_footprint(footprint));
+        let longer = seen.map_or(1.0, |(_, jacobian)| jacobian.x_axis.length().max(jacobian.y_axis.length()));
+        let level = longer.max(1.0).log2();
+        if level.is_finite() { level.min(self.levels.coarsest() as f64) } else { self.levels.coarsest() as f64 }
+    }
+}
+
+impl Prepared for PreparedMipMap<'_> {
+    fn world(&self) -> &World {
+        self.levels.get(0).0
+    }
+
+    fn average(&self, footprint: &Footprint) -> Rgba {
+        let Some(footprint) = bounded(footprint) else { return Rgba::TRANSPARENT };
+        let level = self.level(&footprint);
+        match self.choice {
+            MipChoice::Nearest => {
+                let (world, light) = self.levels.get(level.round() as usize);
+                let mut found = Rgba::TRANSPARENT;
+                lookup::nearest(world, footprint.direction, |texel, _| found = light[texel as usize]);
+                found
+            }
+            MipChoice::Trilinear => {
+                let (finer, part) = (level as usize, level.fract() as f32);
+                let at = |level| {
+                    let (world, light) = self.levels.get(level);
+                    look(world, footprint.direction, light).unwrap_or_default()
+                };
+                if part > 0.0 { at(finer) * (1.0 - part) + at(finer + 1) * part } else { at(finer) }
+            }
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! Filters of Table 1 of Greene & Heckbert 1986, beside EWA: each as its own paper has it, over a footprint of a world.
+//!
+//! They are slow and plain, and serve to be compared. Each averages one footprint after the other, across the edges of
+//! views as far as its method goes.
+
+mod blinn_newell;
+mod catmull;
+mod ewa_integer;
+mod ewa_paper;
+mod feibush_levoy_cook;
+mod gangnet;
+mod mipmap;
+mod region;
+mod screen_kernel;
+mod summed_area;
+
+pub use mipmap::MipChoice;
+
+use super::Kernel;
+use super::ewa_pyramid::Levels;
+use super::traits::{Filter, Prepared, SetupCost};
+use crate::raster::Rgba;
+use crate::world::{Light, LightError, World};
+use region::PreparedRegion;
+use screen_kernel::ScreenKernel;
+
+/// A filter of the literature that EWA is compared with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Classic {
+    /// Squares averaged beforehand, on levels of a pyramid (Dungan, Stenger & Sutty 1978; Williams 1983).
+    MipMap(MipChoice),
+    /// Rectangles by a table of sums (Crow 1984).
+    SummedArea,
+    /// Exact areas under the pixel's parallelogram, evenly weighted (Catmull 1974).
+    Catmull,
+    /// A pyramid over the parallelogram of the pixels around (Blinn & Newell 1976).
+    BlinnNewell,
+    /// Texels mapped to the screen, and weighed there by a round kernel (Feibush, Levoy & Cook 1980).
+    FeibushLevoyCook,
+    /// Samples of the screen mapped to the texels, in a round kernel (Gangnet, Perny & Coueignoux 1982).
+    Gangnet,
+    /// EWA as printed, with a Gaussian and finite differences (Greene & Heckbert 1986).
+    EwaPaper,
+    /// EWA in integers, as the paper proposes.
+    EwaInteger,
+}
+
+impl Classic {
+    /// All filters, in the order of the paper's table.
+    pub const ALL: [Self; 9] = [
+        Self::MipMap(MipChoice::Nearest),
+        Self::MipMap(MipChoice::Trilinear),
+        Self::SummedArea,
+        Self::Catmull,
+        Self::BlinnNewell,
+        Self::FeibushLevoyCook,
+        Self::Gangnet,
+        Self::EwaPaper,
+        Self::EwaInteger,
+    ];
+
+    /// A kernel that reaches all texels that any of the filters reads for a pixel: the coarser of two levels has texels of
+    /// two pixels, and is interpolated over one more.
+    pub(crate) const REACH: Kernel = Kernel { scale: 2.0, ..Kernel::ADAPTIVE };
+
+    /// Prepares the filter for texels in the order of a world's light, all of them finite.
+    pub(crate) fn of_texels<'w>(self, world: &'w World, light: &'w [Rgba]) -> Box<dyn Prepared + 'w> {
+        let kernel = ScreenKernel::new;
+        match self {
+            Self::MipMap(choice) => Box::new(mipmap::PreparedMipMap { levels: Levels::new(world, light), choice }),
+            Self::SummedArea => Box::new(summed_area::PreparedSummedArea::new(world, light)),
+            Self::Catmull => over(world, light, catmull::Catmull),
+            Self::BlinnNewell => over(world, light, blinn_newell::BlinnNewell),
+            Self::FeibushLevoyCook => over(world, light, feibush_levoy_cook::FeibushLevoyCook(kernel())),
+            Self::Gangnet => Box::new(gangnet::PreparedGangnet { world, light, kernel: kernel() }),
+            Self::EwaPaper => over(world, light, ewa_paper::EwaPaper(kernel())),
+            Self::EwaInteger => over(world, light, ewa_integer::EwaInteger::new(&kernel())),
+        }
+    }
+}
+
+impl Filter for Classic {
+    fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, LightError> {
+        light.check(world)?;
+        Ok(self.of_texels(world, light.texels()))
+    }
+
+    fn setup(&self, world: &World) -> SetupCost {
+        let texels = world.texel_count();
+        match self {
+            Self::MipMap(_) => SetupCost { texels, bytes: Levels::bytes(world) },
+            Self::SummedArea => SetupCost { texels, bytes: summed_area::PreparedSummedArea::bytes(world) },
+            Self::Catmull
+            | Self::BlinnNewell
+            | Self::FeibushLevoyCook
+            | Self::Gangnet
+            | Self::EwaPaper
+            | Self::EwaInteger => SetupCost::default(),
+        }
+    }
+}
+
+fn over<'w, R: region::Region + 'w>(world: &'w World, light: &'w [Rgba], region: R) -> Box<dyn Prepared + 'w> {
+    Box::new(PreparedRegion { world, light, region })
+}

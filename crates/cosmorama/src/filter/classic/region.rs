@@ -1,0 +1,158 @@
+use glam::{DMat2, DVec2};
+
+use crate::camera::{Footprint, PixelPoint};
+use crate::filter::reference::look;
+use crate::filter::semi_axes;
+use crate::filter::traits::{Prepared, bounded};
+use crate::raster::Rgba;
+use crate::world::{Source, World};
+
+/// A rule that weighs the texels of one view under a footprint.
+pub(super) trait Region: Send + Sync {
+    /// Calls `visit` with each texel that counts, at its column and row, and with its weight.
+    fn texels(&self, seen: &Seen, visit: impl FnMut([i64; 2], f64));
+}
+
+/// A footprint as one view sees it.
+pub(super) struct Seen<'a> {
+    pub(super) source: &'a Source,
+    pub(super) footprint: &'a Footprint,
+    /// Place of its middle in the image.
+    pub(super) place: DVec2,
+    /// Derivatives of the place by screen x and y, in texels.
+    pub(super) jacobian: DMat2,
+}
+
+/// Columns and rows, of a view or beyond its edges.
+pub(super) struct Rectangle {
+    pub(super) columns: std::ops::RangeInclusive<i64>,
+    pub(super) rows: std::ops::RangeInclusive<i64>,
+}
+
+/// Greatest reach of a footprint in texels, beyond which an image has repeated itself, or ended, long before.
+const FARTHEST: f64 = 1e6;
+
+impl<'a> Seen<'a> {
+    fn new(source: &'a Source, footprint: &'a Footprint) -> Option<Self> {
+        let (pixel, jacobian) = source.view.texel_footprint(footprint)?;
+        let place = DVec2::new(pixel.x, pixel.y);
+        (place.is_finite() && jacobian.is_finite()).then_some(Self { source, footprint, place, jacobian })
+    }
+
+    /// Returns half the size of the box around the parallelogram whose sides are the derivatives.
+    pub(super) fn half_box(&self) -> DVec2 {
+        0.5 * (self.jacobian.x_axis.abs() + self.jacobian.y_axis.abs())
+    }
+
+    /// Returns the derivatives with short ones raised, so that a footprint has at least the size of a texel each way.
+    pub(super) fn widened(&self) -> DMat2 {
+        widened(self.jacobian)
+    }
+
+    /// Returns the texels whose squares reach into a box around the footprint's middle, as far as the view has some.
+    pub(super) fn texels_within(&self, half: DVec2) -> Rectangle {
+        let half = half.min(DVec2::splat(FARTHEST));
+        let (first, last) = ((self.place - half).floor(), (self.place + half).ceil());
+        let (width, height) = (self.source.view.width() as i64, self.source.view.height() as i64);
+        let columns = match self.source.period {
+            // Once around is enough: further columns repeat the first.
+            Some(period) => first.x as i64..=(last.x as i64 - 1).min(first.x as i64 + period as i64 - 1),
+            None => (first.x as i64).max(0)..=(last.x as i64 - 1).min(width - 1),
+        };
+        Rectangle { columns, rows: (first.y as i64).max(0)..=(last.y as i64 - 1).min(height - 1) }
+    }
+
+    /// Returns the offset of a texel's centre from the footprint's middle.
+    pub(super) fn offset(&self, [i, j]: [i64; 2]) -> DVec2 {
+        DVec2::new(i as f64 + 0.5, j as f64 + 0.5) - self.place
+    }
+
+    /// Returns the centre of a texel.
+    pub(super) fn centre([i, j]: [i64; 2]) -> PixelPoint {
+        PixelPoint::new(i as f64 + 0.5, j as f64 + 0.5)
+    }
+}
+
+/// Raises a matrix's singular values to one: J = U S Vᵀ becomes U max(S, 1) Vᵀ.
+fn widened(jacobian: DMat2) -> DMat2 {
+    let [major, minor] = semi_axes(jacobian);
+    if minor >= 1.0 {
+        return jacobian;
+    }
+    // JᵀJ = V S² Vᵀ; its first eigenvector is the screen's direction that maps to the major axis.
+    let square = jacobian.transpose() * jacobian;
+    let angle = 0.5 * (2.0 * square.x_axis.y).atan2(square.x_axis.x - square.y_axis.y);
+    let (sin, cos) = angle.sin_cos();
+    let (first, second) = (DVec2::new(cos, sin), DVec2::new(-sin, cos));
+    let long = (jacobian * first).try_normalize().unwrap_or(first);
+    let turn = if jacobian.determinant() < 0.0 { -1.0 } else { 1.0 };
+    let short = long.perp() * turn;
+    let screen = DMat2::from_cols(first, second).transpose();
+    DMat2::from_cols(long * major.max(1.0), short * minor.max(1.0)) * screen
+}
+
+/// A region over a world's light.
+pub(super) struct PreparedRegion<'w, R> {
+    pub(super) world: &'w World,
+    pub(super) light: &'w [Rgba],
+    pub(super) region: R,
+}
+
+impl<R: Region> Prepared for PreparedRegion<'_, R> {
+    fn world(&self) -> &World {
+        self.world
+    }
+
+    fn average(&self, footprint: &Footprint) -> Rgba {
+        let Some(footprint) = bounded(footprint) else { return Rgba::TRANSPARENT };
+        let (mut sum, mut weights) = ([0f64; 4], 0f64);
+        for source in self.world.sources() {
+            let Some(seen) = reached(source, &footprint) else { continue };
+            self.region.texels(&seen, |[i, j], weight| {
+                let Some(column) = source.column(i) else { return };
+                let texel = j as usize * source.view.width() + column as usize;
+                // Views that show one direction share it, so that nothing counts twice where they meet.
+                let weight = weight * f64::from(source.solid_angles[texel]);
+                if weight != 0.0 {
+                    add(&mut sum, self.light[source.offset + texel], weight);
+                    weights += weight;
+                }
+            });
+        }
+        let mean = || Rgba(sum.map(|channel| (channel / weights) as f32));
+        if weights > 0.0 { mean() } else { look(self.world, footprint.direction, self.light).unwrap_or_default() }
+    }
+}
+
+/// Returns how a view sees a footprint; `None` if it shows nothing near it.
+pub(super) fn reached<'a>(source: &'a Source, footprint: &'a Footprint) -> Option<Seen<'a>> {
+    let width = footprint.jacobian.dx.length() + footprint.jacobian.dy.length();
+    let reach = 2.0 * (width + source.texel_pitch);
+    source.reaches(footprint.direction, reach).then(|| Seen::new(source, footprint))?
+}
+
+/// Adds light, times a weight.
+pub(super) fn add(sum: &mut [f64; 4], light: Rgba, weight: f64) {
+    for (sum, channel) in sum.iter_mut().zip(light.0) {
+        *sum += weight * f64::from(channel);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn short_axes_are_raised_and_long_ones_left() {
+        for columns in [[3.0, 0.5, -1.0, 2.0], [0.2, 0.1, -0.3, 0.4], [5.0, 0.0, 0.0, -0.01], [0.0, 7.0, 0.1, 0.0]] {
+            let (before, after) = (DMat2::from_cols_array(&columns), widened(DMat2::from_cols_array(&columns)));
+            let ([major, minor], [long, short]) = (semi_axes(before), semi_axes(after));
+            assert!((long - major.max(1.0)).abs() < 1e-9 && (short - minor.max(1.0)).abs() < 1e-9, "{columns:?}");
+            assert!(after.determinant() * before.determinant() > 0.0, "{columns:?} is not mirrored");
+            if minor >= 1.0 {
+                assert_eq!(before, after);
+            }
+        }
+        assert_eq!(semi_axes(widened(DMat2::ZERO)), [1.0, 1.0]);
+    }
+}
