@@ -3,6 +3,7 @@
 mod camera;
 mod error;
 mod gltf;
+mod mtl;
 mod obj;
 
 use std::path::Path;

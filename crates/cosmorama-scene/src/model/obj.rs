@@ -1,11 +1,12 @@
 //! Wavefront OBJ. Read here, since errors then name the line, and nothing in a file can stop the program.
 
 use std::collections::HashMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use cosmorama::sphere::Angle;
 use glam::{DVec2, DVec3};
 
+use super::mtl::materials;
 use super::{Contents, ModelFault};
 use crate::material::Material;
 use crate::scene::Part;
@@ -26,6 +27,10 @@ struct Reader {
     /// Parts by group and material.
     parts: HashMap<(String, Option<String>), usize>,
     contents: Contents,
+    /// Materials of the libraries so far.
+    materials: HashMap<String, Material>,
+    /// Folder of the file.
+    folder: PathBuf,
 }
 
 /// A corner of a face: indices of its point, texture coordinates and normal.
@@ -39,7 +44,7 @@ pub(super) fn read(path: &Path, most: usize) -> Result<Contents, ModelFault> {
     if count > most {
         return Err(ModelFault::TooLarge { count, most });
     }
-    let mut reader = Reader::new();
+    let mut reader = Reader::new(path.parent().unwrap_or(Path::new("")).to_owned());
     for (number, line) in text.lines().enumerate() {
         reader.line(line).map_err(|why| ModelFault::Line { line: number + 1, why })?;
     }
@@ -54,7 +59,7 @@ fn triangles(line: &str) -> usize {
 }
 
 impl Reader {
-    fn new() -> Self {
+    fn new(folder: PathBuf) -> Self {
         Self {
             points: Vec::new(),
             normals: Vec::new(),
@@ -63,6 +68,8 @@ impl Reader {
             material: None,
             parts: HashMap::new(),
             contents: Contents::new(CREASE),
+            materials: HashMap::new(),
+            folder,
         }
     }
 
@@ -77,8 +84,27 @@ impl Reader {
             "vt" => self.uvs.push(numbers(rest).map(|[u, v]| DVec2::new(u, 1.0 - v))?),
             "f" => return self.face(rest),
             "g" | "o" => self.group = rest.to_owned(),
+            "mtllib" => return self.library(rest),
             "usemtl" => self.material = Some(rest.to_owned()),
             _ => {}
+        }
+        Ok(())
+    }
+
+    /// Reads a library of materials; one that is missing is told.
+    fn library(&mut self, name: &str) -> Result<(), String> {
+        let bytes = match std::fs::read(self.folder.join(name)) {
+            Ok(bytes) => bytes,
+            Err(error) => {
+                self.contents.notes.push(format!("its materials are not read: {name}: {error}"));
+                return Ok(());
+            }
+        };
+        let (materials, pictures) = materials(&String::from_utf8_lossy(&bytes))
+            .map_err(|(line, why)| format!("in {name}, line {line}: {why}"))?;
+        self.materials.extend(materials);
+        if pictures > 0 {
+            self.contents.notes.push(format!("{pictures} pictures of {name} are not read"));
         }
         Ok(())
     }
@@ -125,7 +151,9 @@ impl Reader {
         let count = self.parts.len();
         let part = *self.parts.entry((self.group.clone(), self.material.clone())).or_insert(count);
         if part == count {
-            self.contents.parts.push(Part { name: self.group.clone(), material: Material::MIRROR, world: 0 });
+            let material = self.material.as_ref().and_then(|name| self.materials.get(name));
+            let material = material.cloned().unwrap_or(Material::MIRROR);
+            self.contents.parts.push(Part { name: self.group.clone(), material, world: 0 });
         }
         part
     }
@@ -143,7 +171,7 @@ impl Reader {
 }
 
 /// Reads the first numbers of a line.
-fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
+pub(super) fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
     let mut words = text.split_ascii_whitespace();
     let mut numbers = [0.0; N];
     for number in &mut numbers {

@@ -3,6 +3,7 @@
 mod accessor;
 mod buffers;
 mod camera;
+mod material;
 mod primitive;
 
 use std::path::Path;
@@ -14,7 +15,6 @@ use gltf::{Document, Gltf, Node};
 
 use self::buffers::Buffers;
 use super::{Contents, ModelFault};
-use crate::material::Material;
 use crate::scene::Part;
 
 /// Extensions that a file may require.
@@ -52,7 +52,8 @@ pub(super) fn read(path: &Path, most: usize) -> Result<Contents, ModelFault> {
                 .or(node.name())
                 .or(mesh.name())
                 .map_or_else(|| format!("node {}", node.index()), str::to_owned);
-            contents.parts.push(Part { name, material: Material::MIRROR, world: 0 });
+            let material = material::material(&primitive.material());
+            contents.parts.push(Part { name, material, world: 0 });
         }
     }
     Ok(contents)
@@ -119,6 +120,7 @@ fn notes(document: &Document) -> Vec<String> {
         (document.skins().len() > 0, "skins are not applied: things are as they rest"),
         (document.animations().len() > 0, "animations are not applied"),
         (primitives().any(is_line), "points and lines are left out"),
+        (document.materials().any(|material| material::has_pictures(&material)), "pictures of materials are not read"),
         (primitives().any(is_clear), "transparency of materials is not shown"),
         (primitives().any(|primitive| primitive.morph_targets().len() > 0), "morph targets are not applied"),
     ];

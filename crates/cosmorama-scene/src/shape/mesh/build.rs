@@ -5,6 +5,7 @@ use thiserror::Error;
 use super::normals::made;
 use super::rim::Rims;
 use super::tree::{Corners, Tree};
+use super::map::Map;
 use super::{Mesh, Skin};
 
 /// A triangle, as files have it.
@@ -85,11 +86,14 @@ impl Mesh {
         let skin =
             |((face, normals), piece): ((&Face, [DVec3; 3]), u32)| Skin { normals, part: face.part as u32, piece };
         let skins: Vec<Skin> = faces.iter().zip(normals).zip(pieces).map(skin).collect();
+        let map = |face: &Face| Some(Map { uvs: face.uvs?, tangents: face.tangents });
+        let has_maps = faces.iter().any(|face| face.uvs.is_some());
+        let maps = if has_maps { faces.iter().map(map).collect() } else { Vec::new() };
         let rims = Rims::new(&welded, &skins);
         let apex = tree.ball().centre;
         let volume = |[a, b, c]: &Corners| (a - apex).dot((b - apex).cross(c - apex)) / 6.0;
         let volume = corners.iter().map(volume).sum();
-        Ok(Self { tree, skins, rims, skipped, volume })
+        Ok(Self { tree, skins, maps, rims, skipped, volume })
     }
 }
 

@@ -1,16 +1,18 @@
 //! Triangle meshes.
 
 mod build;
+mod map;
 mod normals;
 mod rim;
 mod tree;
 
 use glam::DVec3;
 
+use self::map::{Map, Place};
 use self::rim::Rims;
 use self::tree::Tree;
 use super::{Hit, Solid, Sphere, Wall};
-use crate::camera::{Normal, Ray};
+use crate::camera::Ray;
 
 pub use build::{Face, MeshError, Normals};
 pub(crate) use rim::Rim;
@@ -20,6 +22,8 @@ pub(crate) use rim::Rim;
 pub struct Mesh {
     tree: Tree,
     skins: Vec<Skin>,
+    /// Texture coordinates and tangents of the corners of each triangle; none, if no triangle has any.
+    maps: Vec<Option<Map>>,
     rims: Rims,
     skipped: usize,
     /// Its volume; negative if the corners of triangles are clockwise from outside.
@@ -103,23 +107,13 @@ impl Mesh {
         let met = ray.met(hit.distance, outward);
         let squared = plane.length_squared();
         let turn = |moved: DVec3| [moved.cross(sides[1]), sides[0].cross(moved)].map(|part| part.dot(plane) / squared);
-        let turns = [met.dx.origin, met.dy.origin].map(turn);
+        let place = Place { weights: hit.weights, turns: [met.dx.origin, met.dy.origin].map(turn) };
         let skin = &self.skins[hit.face];
-        let normal = interpolated(&skin.normals, hit.weights, turns);
+        let normal = place.normal(&skin.normals);
+        let chart = self.maps.get(hit.face).and_then(Option::as_ref).map(|map| map.chart(&place, sides, normal.unit));
         let normal = if normal.unit.dot(outward) < 0.0 { normal.reversed() } else { normal };
-        Wall { met, normal, distance: hit.distance, part: skin.part as usize, chart: None }
+        Wall { met, normal, distance: hit.distance, part: skin.part as usize, chart }
     }
-}
-
-/// Returns the unit normal between those of corners, with its changes.
-fn interpolated(normals: &[DVec3; 3], weights: [f64; 2], turns: [[f64; 2]; 2]) -> Normal {
-    let sides = [normals[1] - normals[0], normals[2] - normals[0]];
-    let between = |[v, w]: [f64; 2]| sides[0] * v + sides[1] * w;
-    let sum = normals[0] + between(weights);
-    let length = sum.length();
-    let unit = sum / length;
-    let [dx, dy] = turns.map(between).map(|change| (change - unit * unit.dot(change)) / length);
-    Normal { unit, dx, dy }
 }
 
 impl Solid for Mesh {
