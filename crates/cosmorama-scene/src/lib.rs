@@ -31,18 +31,20 @@ mod error;
 mod material;
 mod model;
 mod picture;
+mod ray;
 mod scene;
 mod scene_file;
 mod shade;
 mod shape;
 
-pub use camera::{Camera, Normal, Orthographic, Place, Ray, RayChange};
+pub use camera::{Camera, Orthographic, Place};
 pub use error::SceneError;
 pub use material::{Finish, Glass, Material, MaterialError, NormalMap, Paint, Refraction};
 pub use model::{
     EXTENSIONS as MODEL_EXTENSIONS, Model, ModelCamera, ModelError, ModelFault, ModelLens, ModelSettings, Placing,
 };
 pub use picture::{Background, picture};
+pub use ray::{Normal, Ray, RayChange};
 pub use scene::{Object, Part, Scene};
 pub use scene_file::{FileCamera, Located, NamedWorld, PictureKind, SceneFile, SceneFileError, SceneReader};
 pub use shade::{Chrome, Highlight, LightMaps, Proxy, Sky, Surroundings, Walls};

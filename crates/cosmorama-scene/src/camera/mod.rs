@@ -2,17 +2,16 @@
 
 mod orthographic;
 mod place;
-pub(crate) mod ray;
 
 use cosmorama::camera::{PixelPoint, View};
 use cosmorama::sphere::{Direction, Orientation};
 use glam::{DMat3, DQuat, DVec3};
 
 use crate::error::SceneError;
+use crate::ray::{Ray, RayChange};
 
 pub use orthographic::Orthographic;
 pub use place::Place;
-pub use ray::{Normal, Ray, RayChange};
 
 /// A camera: the beam that each pixel of a picture sees.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,8 +2,9 @@ use cosmorama::camera::PixelPoint;
 use cosmorama::sphere::{Direction, Orientation};
 use glam::{DMat3, DVec3};
 
-use super::{Place, Ray, RayChange};
+use super::Place;
 use crate::error::SceneError;
+use crate::ray::{Ray, RayChange};
 
 /// A camera whose rays are parallel: it sees one direction of the world, and things without perspective.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::cell::{Cell, Pixel, Seen};
 use super::tiles::Tile;
-use crate::camera::Ray;
+use crate::ray::Ray;
 use crate::shape::{Hit, Meeting, Shape};
 
 /// The nearest surface of a ray.

@@ -10,7 +10,8 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::QUARTERS;
-use crate::camera::{Camera, Ray};
+use crate::camera::Camera;
+use crate::ray::Ray;
 use crate::scene::Object;
 use crate::shade::{Detail, Gloss, Surroundings};
 use crate::shape::{Shape, Sphere, Wall};

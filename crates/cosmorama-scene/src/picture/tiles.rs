@@ -1,6 +1,7 @@
 use cosmorama::camera::PixelPoint;
 
-use crate::camera::{Camera, Ray};
+use crate::camera::Camera;
+use crate::ray::Ray;
 use crate::scene::Scene;
 use crate::shape::Sphere;
 

@@ -1,8 +1,8 @@
 use cosmorama::camera::{Covariance, Footprint};
 
 use super::glass::split;
-use crate::camera::{Normal, Ray};
 use crate::material::Material;
+use crate::ray::{Normal, Ray};
 use crate::shape::Solid;
 
 /// A part of a pixel's light: what a ray sees of the world, weighed by colour.

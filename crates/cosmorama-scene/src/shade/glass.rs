@@ -1,8 +1,8 @@
 //! Glass: a beam that is split at each surface into a reflected and a refracted part.
 
 use super::Beam;
-use crate::camera::{Normal, Ray};
 use crate::material::{Glass, Refraction};
+use crate::ray::{Normal, Ray};
 use crate::shape::Solid;
 
 /// Returns the part of unpolarised light that a smooth surface of an insulator reflects (Fresnel).

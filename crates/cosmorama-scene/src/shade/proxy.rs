@@ -4,7 +4,7 @@ use cosmorama::camera::Footprint;
 use cosmorama::sphere::Direction;
 use glam::DVec3;
 
-use crate::camera::Ray;
+use crate::ray::Ray;
 use crate::shape::Sphere;
 
 /// Walls that stand for a near world: a ray is met with them, and the world is looked up in the direction of that place
@@ -83,7 +83,7 @@ impl Proxy {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::camera::RayChange;
+    use crate::ray::RayChange;
 
     const WALLS: [Walls; 2] = [Walls::Sphere(3.0), Walls::Box(DVec3::new(8.0, 3.0, 6.0))];
 

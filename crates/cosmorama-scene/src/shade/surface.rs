@@ -3,8 +3,8 @@ use cosmorama::raster::Rgba;
 use glam::DVec3;
 
 use super::albedo_table::AlbedoTable;
-use crate::camera::Normal;
 use crate::material::{Finish, Material, Paint};
+use crate::ray::Normal;
 use crate::shape::{Chart, Wall};
 
 /// A material at a place, as the eye sees it: emissive + kd·D + ks·S, by colour.

@@ -7,9 +7,9 @@ use glam::{DMat3, DVec3, Vec3};
 use super::maps::LightMap;
 use super::rough::RoughLight;
 use super::{Beam, Chrome, Gloss, LightMaps, Proxy, Sky, Surface};
-use crate::camera::Ray;
 use crate::error::SceneError;
 use crate::material::Material;
+use crate::ray::Ray;
 use crate::scene::Scene;
 use crate::shape::Wall;
 

@@ -8,7 +8,7 @@ mod sphere;
 
 use std::sync::Arc;
 
-use crate::camera::Ray;
+use crate::ray::Ray;
 
 pub(crate) use chart::Chart;
 pub(crate) use edge::Edge;

@@ -1,5 +1,5 @@
 use super::Chart;
-use crate::camera::{Normal, Ray};
+use crate::ray::{Normal, Ray};
 
 /// A closed shape, as rays that glass bends see it.
 pub(crate) trait Solid {

@@ -4,7 +4,7 @@ use cosmorama::sphere::Orientation;
 use glam::{DVec2, DVec3};
 
 use super::{Chart, Edge, Solid, Wall};
-use crate::camera::{Normal, Ray};
+use crate::ray::{Normal, Ray};
 
 /// A ball.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,7 +3,7 @@ use std::f64::consts::PI;
 use rayon::prelude::*;
 use thiserror::Error;
 
-use super::lobes::averages::Normalisation;
+use super::prefilter::averages::Normalisation;
 use super::texel_angles::texel_angles;
 use crate::camera::PixelPoint;
 use crate::raster::Rgba;

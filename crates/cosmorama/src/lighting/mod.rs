@@ -6,8 +6,8 @@ mod colour_table;
 pub(crate) mod energy_balance;
 mod figures;
 mod harmonics;
-mod lobes;
 mod map_difference;
+mod prefilter;
 mod roughness_map;
 mod suns;
 mod texel_angles;
@@ -20,7 +20,7 @@ pub use harmonics::{
     CodeLanguage, HIGHEST_ORDER, HarmonicAccuracy, HarmonicBasis, HarmonicFunctions, HarmonicKind, HarmonicPreset,
     HarmonicWindow, Harmonics, HarmonicsError, PresetError, SeriesAccuracy, StoredHarmonics,
 };
-pub use lobes::{AllTexels, LightTree, Lobe, LobeAverages, LobeError, PreparedLight, SHARPEST, SMOOTHEST};
 pub use map_difference::MapDifference;
+pub use prefilter::{AllTexels, LightTree, Lobe, LobeAverages, LobeError, PreparedLight, SHARPEST, SMOOTHEST};
 pub use roughness_map::{ChainLevel, RoughnessMap};
 pub use suns::{Sun, Suns};

@@ -352,7 +352,9 @@ fn a_scale_keeps_suns_within_halves() {
     let pairs = light(&bench, "one.exr").into_iter().zip(light(&bench, "half.exr"));
     assert!(pairs.into_iter().all(|(one, half)| one.map(|light| 0.5 * light) == half));
     // Integers end at 1; this irradiance is within halves.
-    for (name, says) in [("a.tga", &["TGA has no place", "irradiance", "written times"][..]), ("a.dds", &["DDS has no place"])] {
+    for (name, says) in
+        [("a.tga", &["TGA has no place", "irradiance", "written times"][..]), ("a.dds", &["DDS has no place"])]
+    {
         let args = ["light", "diffuse", "sky.exr", name, "--scale", "auto"];
         assert_says(&text(&bench.run(&args).stderr), says);
     }

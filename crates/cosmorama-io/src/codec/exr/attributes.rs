@@ -1,14 +1,16 @@
-//! Attributes of a header, as they are stored.
+//! Attributes of a header: read as they are stored, and written.
 
 use std::io::{self, Read};
 use std::path::Path;
 
-use exr::meta::attribute::{AttributeValue, Text};
+use exr::meta::attribute::{AttributeValue, EnvironmentMap, Text};
+use exr::meta::header::LayerAttributes;
 
+use super::colour;
 use super::reader::MARK;
 use crate::codec::interface::Source;
-use crate::metadata::{Attribute, LARGEST_ATTRIBUTE};
-use crate::{Carried, Format, IoError};
+use crate::metadata::{Attribute, LARGEST_ATTRIBUTE, SOFTWARE};
+use crate::{Carried, EnvMap, Format, IoError, Metadata};
 
 /// Greatest number of bytes of a name, by the format.
 const LONGEST_NAME: u64 = 255;
@@ -100,9 +102,27 @@ fn name(source: Source<'_>) -> io::Result<Option<String>> {
     Ok((name.pop() == Some(0)).then(|| name.into_iter().map(char::from).collect()))
 }
 
-/// Returns the attributes to write, byte by byte. The encoder's own fields for standard attributes would change some: exr
+/// Returns the attributes to write: our own, those carried along, and remarks.
+pub(super) fn written(metadata: &Metadata) -> LayerAttributes {
+    let remarks = metadata.remarks.iter();
+    let remarks = remarks.map(|remark| (Text::from(remark.name), AttributeValue::Text(Text::from(&*remark.text))));
+    let other = colour::interop_id(metadata).into_iter().chain(stored(&metadata.carried)).chain(remarks);
+    LayerAttributes {
+        environment_map: metadata.envmap.and_then(|kind| match kind {
+            EnvMap::LatLong => Some(EnvironmentMap::LatitudeLongitude),
+            EnvMap::Cube => Some(EnvironmentMap::Cube),
+            EnvMap::GlCube => None,
+        }),
+        software_name: Some(Text::from(SOFTWARE)),
+        white_luminance: metadata.white_luminance,
+        other: other.collect(),
+        ..LayerAttributes::default()
+    }
+}
+
+/// Returns the attributes carried along, byte by byte. The encoder's own fields for standard attributes would change some: exr
 /// 1.74 leaves a number of `keyCode` out, and refuses time codes of more than 30 frames a second.
-pub(super) fn stored(carried: &Carried) -> impl Iterator<Item = (Text, AttributeValue)> {
+fn stored(carried: &Carried) -> impl Iterator<Item = (Text, AttributeValue)> {
     let kept = carried.attributes.iter().filter(|attribute| !attribute.is_storage() && attribute.name != "envmap");
     kept.filter_map(|Attribute { name, kind, bytes }| {
         let kind = Text::new_or_none(kind)?;

@@ -7,15 +7,12 @@ use exr::image::write::WritableImage;
 use exr::image::write::samples::WritableSamples;
 use exr::image::{AnyChannel, AnyChannels, Blocks, Encoding, FlatSamples, Image, Layer, Levels};
 use exr::math::{RoundingMode, Vec2};
-use exr::meta::attribute::{AttributeValue, EnvironmentMap, Text};
-use exr::meta::header::LayerAttributes;
 use exr::prelude::SmallVec;
 use half::f16;
 
 use super::{attributes, colour};
 use crate::codec::interface::is_beside_others;
-use crate::metadata::SOFTWARE;
-use crate::{Compression, EnvMap, IoError, LayeredImage, Plane, PlaneSamples, WriteOptions};
+use crate::{Compression, IoError, LayeredImage, Plane, PlaneSamples, WriteOptions};
 
 /// Writes scan lines of premultiplied light, as the format requires.
 pub(crate) fn write(
@@ -150,21 +147,7 @@ fn save<S: for<'s> WritableSamples<'s> + 'static>(
         Compression::Balanced | Compression::High => Packing::ZIP16,
     };
     let encoding = Encoding { compression: packing, blocks, ..Encoding::SMALL_LOSSLESS };
-    let mut own = LayerAttributes {
-        environment_map: options.metadata.envmap.and_then(|kind| match kind {
-            EnvMap::LatLong => Some(EnvironmentMap::LatitudeLongitude),
-            EnvMap::Cube => Some(EnvironmentMap::Cube),
-            EnvMap::GlCube => None,
-        }),
-        software_name: Some(Text::from(SOFTWARE)),
-        white_luminance: options.metadata.white_luminance,
-        other: colour::interop_id(&options.metadata).into_iter().collect(),
-        ..LayerAttributes::default()
-    };
-    own.other.extend(attributes::stored(&options.metadata.carried));
-    let remarks = options.metadata.remarks.iter();
-    own.other.extend(remarks.map(|remark| (Text::from(remark.name), AttributeValue::Text(Text::from(&*remark.text)))));
-    let layer = Layer::new(size, own, encoding, AnyChannels::sort(list));
+    let layer = Layer::new(size, attributes::written(&options.metadata), encoding, AnyChannels::sort(list));
     let mut picture = Image::from_layer(layer);
     picture.attributes.chromaticities = options.metadata.primaries.as_ref().map(colour::chromaticities);
     // The encoder's checks refuse standard attributes that it has not made itself.

@@ -2,10 +2,10 @@ use cosmorama::sphere::Angle;
 use glam::{DVec2, DVec3, DVec4};
 use thiserror::Error;
 
+use super::map::Map;
 use super::normals::made;
 use super::rim::Rims;
 use super::tree::{Corners, Tree};
-use super::map::Map;
 use super::{Mesh, Skin};
 
 /// A triangle, as files have it.

@@ -1,7 +1,7 @@
 use glam::{DVec2, DVec3, DVec4};
 
 use super::super::Chart;
-use crate::camera::Normal;
+use crate::ray::Normal;
 
 /// Texture coordinates at the corners of a triangle, and tangents if the file has them.
 #[derive(Clone, Copy, Debug)]

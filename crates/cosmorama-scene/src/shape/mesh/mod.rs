@@ -12,7 +12,7 @@ use self::map::{Map, Place};
 use self::rim::Rims;
 use self::tree::Tree;
 use super::{Hit, Solid, Sphere, Wall};
-use crate::camera::Ray;
+use crate::ray::Ray;
 
 pub use build::{Face, MeshError, Normals};
 pub(crate) use rim::Rim;

@@ -6,7 +6,7 @@ use obvhs::ray::{Ray as BoxRay, RayHit};
 use obvhs::{Boundable, BvhBuildParams};
 
 use super::super::{Hit, Sphere};
-use crate::camera::Ray;
+use crate::ray::Ray;
 
 /// Corners of a triangle.
 pub(super) type Corners = [DVec3; 3];
@@ -121,7 +121,7 @@ fn meet(ray: &Ray, corners: &Corners) -> Option<(f64, [f64; 2])> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::camera::RayChange;
+    use crate::ray::RayChange;
 
     const STILL: RayChange = RayChange { origin: DVec3::ZERO, direction: DVec3::ZERO };
 

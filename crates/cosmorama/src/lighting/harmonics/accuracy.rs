@@ -3,7 +3,7 @@ use std::f64::consts::PI;
 use rayon::prelude::*;
 
 use super::coefficients::Harmonics;
-use crate::lighting::lobes::{Lobe, LobeAverages, PreparedLight};
+use crate::lighting::prefilter::{Lobe, LobeAverages, PreparedLight};
 use crate::lighting::texel_angles::texel_angles;
 use crate::raster::Rgba;
 use crate::sphere::Direction;

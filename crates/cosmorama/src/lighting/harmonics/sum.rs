@@ -4,7 +4,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::basis::HarmonicFunctions;
-use crate::lighting::lobes::averages::Normalisation;
+use crate::lighting::prefilter::averages::Normalisation;
 use crate::lighting::texel_angles::texel_angles;
 use crate::raster::Rgba;
 use crate::world::{Source, World};

@@ -1,15 +1,15 @@
 use super::block::{Block, Cloud};
-use crate::lighting::lobes::lobe::Weight;
+use crate::lighting::prefilter::lobe::Weight;
 use crate::sphere::Direction;
 
 /// Axes that are worked on together.
-pub(in crate::lighting::lobes) const LANES: usize = 8;
+pub(in crate::lighting::prefilter) const LANES: usize = 8;
 
 /// A number for each axis.
 type Lanes = [f32; LANES];
 
 /// Axes of lobes, an axis a lane, with their sums of red, green, blue and opacity.
-pub(in crate::lighting::lobes) struct Packet {
+pub(in crate::lighting::prefilter) struct Packet {
     axes: [Lanes; 3],
     sums: [Lanes; 4],
 }
@@ -37,14 +37,14 @@ struct CloudWeight {
 
 impl Packet {
     /// Starts sums about up to [`LANES`] axes.
-    pub(in crate::lighting::lobes) fn of(axes: &[Direction]) -> Self {
+    pub(in crate::lighting::prefilter) fn of(axes: &[Direction]) -> Self {
         let vector = |lane: usize| axes[lane.min(axes.len() - 1)].vector().to_array();
         let axes = std::array::from_fn(|k| std::array::from_fn(|lane| vector(lane)[k] as f32));
         Self { axes, sums: [[0.0; LANES]; 4] }
     }
 
     /// Returns the sums of a lane.
-    pub(in crate::lighting::lobes) fn sums(&self, lane: usize) -> [f64; 4] {
+    pub(in crate::lighting::prefilter) fn sums(&self, lane: usize) -> [f64; 4] {
         self.sums.map(|sums| f64::from(sums[lane]))
     }
 
@@ -76,7 +76,12 @@ impl Packet {
 
     /// Adds a texel, given by its direction and its light and opacity times solid angle.
     #[inline(always)]
-    pub(in crate::lighting::lobes) fn add_texel<W: Weight>(&mut self, direction: [f32; 3], light: [f32; 4], weight: W) {
+    pub(in crate::lighting::prefilter) fn add_texel<W: Weight>(
+        &mut self,
+        direction: [f32; 3],
+        light: [f32; 4],
+        weight: W,
+    ) {
         let s = self.off_axis(direction);
         let weights: Lanes = std::array::from_fn(|lane| weight.single(s[lane]));
         for (sums, light) in self.sums.iter_mut().zip(light) {

@@ -1,6 +1,6 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use crate::lighting::lobes::Lobe;
+use crate::lighting::prefilter::Lobe;
 
 /// Factors by which a lobe multiplies the bands of a world's light: band l by 2π ∫ w(θ) P_l(cos θ) sin θ dθ (Funk & Hecke; Basri &
 /// Jacobs 2003, equation 6). The first is the lobe's integral.

@@ -117,7 +117,7 @@ impl Fourier {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lighting::lobes::Lobe;
+    use crate::lighting::prefilter::Lobe;
     use crate::sphere::Direction;
 
     /// Checks that a point of light under a lobe is the lobe, but for the bands left out.

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::grid::{Channels, GridSize, Spread, Taps};
 use super::points::{BrightPoints, brightness};
 use crate::camera::PixelPoint;
-use crate::lighting::lobes::{LitTexels, LitView};
+use crate::lighting::prefilter::{LitTexels, LitView};
 use crate::raster::Rgba;
 use crate::sphere::Direction;
 

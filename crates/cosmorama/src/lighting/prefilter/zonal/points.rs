@@ -1,7 +1,7 @@
 use rayon::prelude::*;
 
 use super::grid::Channels;
-use crate::lighting::lobes::{LitTexels, LitView};
+use crate::lighting::prefilter::{LitTexels, LitView};
 use crate::raster::Rgba;
 use crate::sphere::Direction;
 

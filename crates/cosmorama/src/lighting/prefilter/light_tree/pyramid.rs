@@ -1,7 +1,7 @@
 use rayon::prelude::*;
 
 use super::block::{Block, Sums};
-use crate::lighting::lobes::LitView;
+use crate::lighting::prefilter::LitView;
 
 /// The blocks of a view: finest first, down to a single one.
 pub(super) struct Pyramid {
