@@ -132,7 +132,14 @@ pub(crate) struct ShadeArgs {
     #[arg(long, value_name = "WALLS", hide_short_help = true, help_heading = "World")]
     pub(crate) proxy: Option<WallsName>,
     /// Point from which the world's picture was taken [default: 0,0,0]
-    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, requires = "proxy", hide_short_help = true, help_heading = "World")]
+    #[arg(
+        long,
+        value_name = "X,Y,Z",
+        allow_hyphen_values = true,
+        requires = "proxy",
+        hide_short_help = true,
+        help_heading = "World"
+    )]
     pub(crate) centre: Option<Point>,
     /// The world's projection [default: found]
     #[arg(long, value_name = "SPEC", value_parser = listed::spec(), hide_possible_values = true, help_heading = "World")]
