@@ -146,7 +146,7 @@ pub(crate) struct ConvertArgs {
     /// #rrggbbaa, or r,g,b of linear light.
     #[arg(long, value_name = "COLOR", help_heading = "Light")]
     pub(crate) background: Option<Colour>,
-    /// Uncovered: error (default), mirror, stretch or a colour
+    /// Uncovered: error (default), mirror or a colour
     ///
     /// Pixels that look where no view of the input does: transparent is a colour, too. mirror shows what lies as far inside the edge of the input, stretch
     /// the nearest of it.

@@ -2,6 +2,7 @@
 
 use std::sync::{Mutex, MutexGuard};
 
+use cosmorama::camera::View;
 use cosmorama::raster::{Image, Rgba};
 use cosmorama::render::{Progress, Stopped};
 use cosmorama_io::WriteOptions;
@@ -41,18 +42,28 @@ impl<'a> Behind<'a> {
         lock(&self.tally).warnings(self.engine.job)
     }
 
-    /// Lays a picture over what lies behind it, in the frame at a place among all. `make` renders that from the backdrop's own
+    /// Lays the picture of a view over what lies behind it, in the frame at a place among all. `make` renders that from the backdrop's own
     /// frame and its light.
     pub(super) fn lay_under(
         &self,
-        image: &mut Image<Rgba>,
+        (view, image): (&View, &mut Image<Rgba>),
         place: usize,
         make: impl FnOnce(&Engine<'a>, (Option<u64>, &FrameLight)) -> Result<Image<Rgba>>,
     ) -> Result<()> {
         let own = self.engine.job.input.frames[place];
         let held = self.read(own)?;
         let under = make(&self.engine, (own, &held.light))?;
-        image.pixels_mut().par_iter_mut().zip(under.pixels()).for_each(|(pixel, under)| *pixel = pixel.over(*under));
+        let width = image.width().max(1);
+        let rows = image.pixels_mut().par_chunks_mut(width).zip(under.pixels().par_chunks(width)).enumerate();
+        rows.for_each(|(j, (row, under))| {
+            for (i, (pixel, under)) in row.iter_mut().zip(under).enumerate() {
+                // The rim of a lens cuts both alike: what it leaves of the one lies before what it leaves of the other.
+                let is_cut = pixel.alpha() > 0.0 && under.alpha() > 0.0 && under.alpha() < 1.0;
+                let screen = if is_cut { view.screen_pixel(i, j) } else { None };
+                let part = screen.map_or(1.0, |screen| screen.coverage as f32);
+                *pixel += *under * (1.0 - pixel.alpha() / part).max(0.0);
+            }
+        });
         self.engine.pool().give_image(under);
         Ok(())
     }

@@ -149,7 +149,9 @@ impl Engine<'_> {
         self.fill_unseen((posed, index), light, &mut image)?;
         self.thin(&mut image);
         if let (Some(behind), Some(layer)) = (&self.behind, &layer.behind) {
-            behind.lay_under(&mut image, layer.place, |engine, light| engine.widened(index, light, layer, exposed))?;
+            behind.lay_under((&target.view, &mut image), layer.place, |engine, light| {
+                engine.widened(index, light, layer, exposed)
+            })?;
         }
         Ok(image)
     }

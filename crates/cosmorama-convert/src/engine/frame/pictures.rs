@@ -388,7 +388,10 @@ impl<'a> Engine<'a> {
         self.fill_unseen((&layer.posed, index), light, &mut image)?;
         self.thin(&mut image);
         if let (Some(behind), Some(layer)) = (&self.behind, &mut layer.behind) {
-            behind.lay_under(&mut image, layer.place, |engine, light| engine.layered(index, light, layer, shares))?;
+            let view = &self.job.target.views[index].view;
+            behind.lay_under((view, &mut image), layer.place, |engine, light| {
+                engine.layered(index, light, layer, shares)
+            })?;
         }
         Ok(image)
     }
