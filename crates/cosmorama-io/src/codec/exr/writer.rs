@@ -7,6 +7,7 @@ use exr::image::write::WritableImage;
 use exr::image::write::samples::WritableSamples;
 use exr::image::{AnyChannel, AnyChannels, Blocks, Encoding, FlatSamples, Image, Layer, Levels};
 use exr::math::{RoundingMode, Vec2};
+use exr::meta::attribute::Text;
 use exr::prelude::SmallVec;
 use half::f16;
 
