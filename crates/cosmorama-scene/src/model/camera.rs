@@ -12,9 +12,9 @@ pub struct ModelCamera {
     pub name: String,
     /// Place of the eye.
     pub eye: DVec3,
-    /// Where it looks.
+    /// Orientation.
     pub orientation: Orientation,
-    /// What it sees from there.
+    /// Lens.
     pub lens: ModelLens,
 }
 

@@ -11,7 +11,7 @@ use crate::shape::MeshError;
 pub struct ModelError {
     /// The file.
     pub path: PathBuf,
-    /// What is wrong with it.
+    /// Fault.
     pub why: ModelFault,
 }
 
@@ -29,7 +29,7 @@ pub enum ModelFault {
     Line {
         /// Number of the line, from 1.
         line: usize,
-        /// What is wrong with it.
+        /// Fault.
         why: String,
     },
     /// It is not as its format says.
@@ -43,7 +43,7 @@ pub enum ModelFault {
     Piece {
         /// The piece.
         piece: String,
-        /// What is wrong with it.
+        /// Fault.
         why: String,
     },
     /// Its triangles are no surface.

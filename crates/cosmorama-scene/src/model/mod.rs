@@ -29,11 +29,11 @@ pub struct Model {
     pub object: Object,
     /// The file's own cameras.
     pub cameras: Vec<ModelCamera>,
-    /// What was left out, to be told.
+    /// Parts of the file that were left out, to be told.
     pub notes: Vec<String>,
 }
 
-/// What is made of a file.
+/// Settings of a file's reading.
 #[derive(Clone, Debug)]
 pub struct ModelSettings {
     /// Greatest angle between faces over which normals are smooth; `None` takes the file's own normals, and

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::obj::numbers;
 use crate::material::{Finish, Material, Paint};
 
-/// What a file says of a material.
+/// A material of a file.
 #[derive(Clone, Copy, Default)]
 struct Entry {
     diffuse: [f64; 3],

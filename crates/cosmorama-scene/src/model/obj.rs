@@ -15,7 +15,7 @@ use crate::shape::Face;
 /// Crease of normals that a file lacks.
 const CREASE: Angle = Angle::from_degrees(40.0);
 
-/// What a file has said so far.
+/// State of the reading of a file.
 struct Reader {
     points: Vec<DVec3>,
     normals: Vec<DVec3>,

@@ -139,7 +139,7 @@ mod tests {
         Material::of(Finish { metallic: 1.0, roughness: 1.0, metal_map, ..Finish::default() })
     }
 
-    /// Greatest differences of a chain at an α, as parts of the light: from a map of its own, and from the sum over all
+    /// Returns the greatest differences of a chain at an α, as parts of the light: from a map of its own, and from the sum over all
     /// texels.
     fn errors((world, light): &(World, Light), wanted: f64, chain: &Material) -> [f32; 2] {
         let (sky, rough) = (Sky::new(world, light), Material { alpha: wanted, ..Material::MIRROR });

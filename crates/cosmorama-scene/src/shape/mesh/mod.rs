@@ -121,7 +121,8 @@ impl Solid for Mesh {
         self.meet(ray, self.away()).map(|hit| self.wall(ray, &hit))
     }
 
-    /// Where smooth normals send a ray from outside into the surface, it meets that from behind: this is not counted.
+    /// Returns the surface that a ray from outside meets again. A ray that smooth normals send into the surface meets it from
+    /// behind, which does not count.
     fn again(&self, ray: &Ray) -> Option<Wall> {
         let hit = self.meet(ray, self.away())?;
         let is_from_outside = self.plane(hit.face).0.dot(ray.direction) * self.volume < 0.0;
