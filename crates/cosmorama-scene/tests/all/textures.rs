@@ -19,7 +19,7 @@ const LENGTH: f64 = 1.5;
 /// Two by two checks.
 fn checks() -> Image<Rgba> {
     Image::from_fn(EDGE, EDGE, |i, j| {
-        let shade = if (2 * i / EDGE + 2 * j / EDGE) % 2 == 0 { 0.05 } else { 0.9 };
+        let shade = if (2 * i / EDGE + 2 * j / EDGE).is_multiple_of(2) { 0.05 } else { 0.9 };
         Rgba::opaque(shade, shade, shade)
     })
 }

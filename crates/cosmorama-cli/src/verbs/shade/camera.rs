@@ -44,7 +44,7 @@ impl Asked {
         };
         let size = match (args.size, file.as_ref().and_then(|file| file.size.as_ref())) {
             (Some(size), _) => size,
-            (None, Some(text)) => text.text.parse().map_err(|error| written(text, format!("{error}")))?,
+            (None, Some(text)) => text.text.parse().map_err(|error: String| written(text, error))?,
             (None, None) => Size { width: WIDTH, height: None },
         };
         let place = |option: Option<Point>, file: Option<[f64; 3]>| option.map(|point| point.0).or(file);

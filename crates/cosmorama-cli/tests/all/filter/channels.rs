@@ -209,7 +209,7 @@ fn labels_alone_with_red_green_and_blue_are_no_picture() {
     for matte in ["crypto_object", "UserObj"] {
         let names = |rank: &str| ["R", "G", "B", "A"].map(|letter| format!("{matte}{rank}.{letter}"));
         let (first, second) = (names("00"), names("01"));
-        let ranks = |k: usize, which: usize| if which % 2 == 0 { cell(k) * 7.0 + which as f64 } else { 0.5 };
+        let ranks = |k: usize, which: usize| if which.is_multiple_of(2) { cell(k) * 7.0 + which as f64 } else { 0.5 };
         let deeper = |k: usize, which: usize| 1e4 - ranks(k / 3 * 3, which);
         let planes_in =
             [four(first.each_ref().map(|name| &**name), ranks), four(second.each_ref().map(|name| &**name), deeper)];

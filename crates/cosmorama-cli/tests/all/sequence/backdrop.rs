@@ -19,7 +19,7 @@ fn fan(direction: Direction) -> Option<([f32; 3], f32)> {
         return Some(([1.0, 0.9, 0.1], 1.0));
     }
     let leaf = (angle * 9.0 / std::f64::consts::PI).floor();
-    (leaf.rem_euclid(2.0) == 0.0).then(|| ([0.1, 0.1 + 0.05 * (leaf as f32 + 9.0), 0.9], 0.7))
+    (leaf.rem_euclid(2.0) == 0.0).then_some(([0.1, 0.1 + 0.05 * (leaf as f32 + 9.0), 0.9], 0.7))
 }
 
 fn face_view(face: CubeFace, size: usize) -> View {

@@ -5,12 +5,12 @@ use crate::filter::Ellipse;
 /// EWA in integers, which the paper mentions ("with proper checking, by using integer variables throughout"): Q, its
 /// differences and the weights are integers (Greene & Heckbert 1986).
 ///
-/// Places are rounded to 1/256 texel, and Q has as many bits of fraction as its greatest value in the box leaves of 62.
+/// Places are rounded to 2⁻¹⁶ texel, and Q has as many bits of fraction as its greatest value in the box leaves of 62.
 /// The sums of light stay floats, since light has any range.
 pub(super) struct EwaInteger(Vec<i32>);
 
 /// Bits of a fraction of a texel.
-const PLACE_BITS: u32 = 8;
+const PLACE_BITS: u32 = 16;
 
 /// Bits that Q may have.
 const MOST_BITS: i32 = 62;
@@ -42,7 +42,7 @@ impl Region for EwaInteger {
         if bits < 0 {
             return;
         }
-        // Offsets are whole numbers of 2⁻⁸ texel, products of two have 16 more bits.
+        // Offsets are whole numbers of 2⁻¹⁶ texel and fit 36 bits, coefficients 53: sums of three products fit 128.
         let scale = f64::from(bits).exp2();
         let [a, b, c] = [ellipse.a, ellipse.b, ellipse.c].map(|coefficient| (coefficient * f * scale).round() as i128);
         let whole = 1i128 << PLACE_BITS;

@@ -94,6 +94,9 @@ impl Continuation {
     }
 }
 
+/// A node of a cube's face, and whether the world covers it.
+type Node = Option<(Direction, bool)>;
+
 /// Returns the points of the edge between the nodes of a row of a cube's face, and between these and the row below.
 fn edge_points(world: &World, face: CubeFace, j: usize) -> Vec<DVec3> {
     let orientation = face.orientation();
@@ -107,7 +110,7 @@ fn edge_points(world: &World, face: CubeFace, j: usize) -> Vec<DVec3> {
     let row: Vec<_> = (0..=NODES).map(|i| seen(i, j)).collect();
     let below: Vec<_> = if j < NODES { (0..=NODES).map(|i| seen(i, j + 1)).collect() } else { Vec::new() };
     let pairs = row.iter().zip(row.iter().skip(1)).chain(row.iter().zip(&below));
-    let crossing = |(a, b): (&Option<(Direction, bool)>, &Option<(Direction, bool)>)| match (a, b) {
+    let crossing = |(a, b): (&Node, &Node)| match (a, b) {
         (Some((inside, true)), Some((outside, false))) | (Some((outside, false)), Some((inside, true))) => {
             last_covered(inside.vector(), outside.vector(), is_covered)
         }
@@ -175,7 +178,7 @@ mod tests {
                     + if beyond == Beyond::Stretch {
                         0.3 * (pitch.to_radians().cos() + 0.02).recip() * 1e-2
                     } else {
-                        0.02
+                        0.03
                     };
                 assert!(off < most, "{beyond:?} of {yaw}, {pitch}: off by {off}°");
             }

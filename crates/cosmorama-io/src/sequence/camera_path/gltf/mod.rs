@@ -171,7 +171,8 @@ mod tests {
     #[test]
     fn what_is_wrong_is_named() {
         let whole = file(true);
-        let cases: [(&[u8], Option<f64>, Option<&str>, &str); 5] = [
+        type Case<'a> = (&'a [u8], Option<f64>, Option<&'a str>, &'a str);
+        let cases: [Case; 5] = [
             (&whole, None, None, "rate of frames"),
             (&whole, Some(24.0), Some("Crane"), "no camera or node Crane; there are Arm, Shot and Rest"),
             (&whole, Some(24.0), Some("Rest"), "nothing turns Rest"),
