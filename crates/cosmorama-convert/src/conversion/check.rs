@@ -63,7 +63,8 @@ impl Checked {
 /// Puts the layers of a world file in place of its name: the first is the input, and the others lie behind it, before a
 /// backdrop.
 fn with_layers(mut settings: Conversion) -> Result<Conversion> {
-    let layers = world_file::layers(&settings.input, &*settings.files)?;
+    // What is wrong with the file is told when the input is read, after mistakes in the settings.
+    let layers = world_file::layers(&settings.input, &*settings.files).unwrap_or_default();
     if layers.is_empty() {
         return Ok(settings);
     }

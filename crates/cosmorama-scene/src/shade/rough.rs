@@ -169,7 +169,6 @@ mod tests {
             // The smoother one has a coarser map for its size, whether of its own or not.
             for (wanted, chain, bound) in [(0.3, spotted([0.5, 0.6]), 0.03), (0.11, spotted([0.25, 0.5]), 0.06)] {
                 let [map, brute] = errors(&sky, wanted, &chain);
-                println!("{name}, α {wanted}: {map:.4} from its own map, {brute:.4} from all texels");
                 assert!(map < 0.02 && brute < bound, "{name}, α {wanted}: {map}, {brute}");
             }
         }

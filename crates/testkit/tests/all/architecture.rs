@@ -115,7 +115,7 @@ const CRATES: [CratePlan; 8] = [
     CratePlan {
         name: "cosmorama-io",
         crates: &["cosmorama"],
-        rooms: &["sphere", "camera", "layout", "raster", "world"],
+        rooms: &["sphere", "camera", "layout", "motion", "raster", "world"],
         banned_std: &["net", "process"],
         banned: &["glam", "println", "eprintln"],
         reason: "files know no geometry and no terminal",

@@ -10,6 +10,7 @@ pub(crate) mod cap_chain;
 pub(crate) mod clearance;
 pub(crate) mod curvature;
 pub(crate) mod ellipse;
+pub(crate) mod pixel_taps;
 pub(crate) mod seam_scale;
 pub(crate) mod tangent_kernel;
 pub(crate) mod tap_weights;

@@ -8,8 +8,8 @@ use super::need::{Reads, Survey};
 use crate::camera::View;
 use crate::filter::FilterSettings;
 use crate::filter::gather::cap::Cap;
+use crate::filter::gather::pixel_taps::PixelTaps;
 use crate::filter::kernel::KernelTable;
-use crate::filter::pixel_taps::PixelTaps;
 use crate::render::Needs;
 use crate::world::World;
 

@@ -16,8 +16,8 @@ use super::scan::patch::Patch;
 use super::scan::tile::{HALF, SIDE};
 use super::scan::wanted::Wanted;
 use crate::camera::PixelRect;
+use crate::filter::gather::pixel_taps::PixelTaps;
 use crate::filter::kernel::KernelTable;
-use crate::filter::pixel_taps::PixelTaps;
 use crate::filter::taps::Taps;
 
 /// Number of columns that are scanned together: pixels above each other share texels, which are still in the cache.

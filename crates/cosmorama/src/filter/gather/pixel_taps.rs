@@ -1,9 +1,9 @@
-use super::gather::Gather;
-use super::kernel::KernelTable;
-use super::rim::field_edge::FieldEdge;
-use super::taps::Taps;
-use super::{FilterKind, FilterSettings, LabelRule, lookup, reference};
+use super::Gather;
 use crate::camera::{ScreenPixel, View};
+use crate::filter::kernel::KernelTable;
+use crate::filter::rim::field_edge::FieldEdge;
+use crate::filter::taps::Taps;
+use crate::filter::{FilterKind, FilterSettings, LabelRule, lookup, reference};
 use crate::world::World;
 
 /// Finder of the texels that make up single pixels of a target.
