@@ -84,9 +84,10 @@ fn error(found: &Image<Rgba>, expected: &Image<Rgba>) -> f64 {
 
 #[test]
 fn spheres_of_a_few_pixels_match_many_samples() {
-    for name in SKIES {
+    for (k, name) in SKIES.into_iter().enumerate() {
         let Some((world, light)) = sky(name) else { return };
-        for diameter in [1.0, 2.0, 4.0, 8.0] {
+        // All sizes under one sky; under the others the ends.
+        for &diameter in if k == 0 { &[1.0, 2.0, 4.0, 8.0][..] } else { &[1.0, 8.0] } {
             let at = [0.3, -0.2];
             let expected = brute(diameter, at, (&world, &light));
             let filter = FilterSettings { kind: FilterKind::EwaPyramid, ..FilterSettings::DEFAULT };
@@ -100,9 +101,9 @@ fn spheres_of_a_few_pixels_match_many_samples() {
 
 #[test]
 fn a_sphere_that_moves_by_parts_of_a_pixel_does_not_flicker() {
-    for name in SKIES {
+    for (k, name) in SKIES.into_iter().enumerate() {
         let Some((world, light)) = sky(name) else { return };
-        for diameter in [1.0, 2.0] {
+        for &diameter in if k == 0 { &[1.0, 2.0][..] } else { &[1.0] } {
             let filter = FilterSettings { kind: FilterKind::EwaPyramid, ..FilterSettings::DEFAULT };
             let total = |k: usize| -> f64 {
                 let at = [0.23 * k as f64, -0.13 * k as f64];
