@@ -1,6 +1,5 @@
 //! Verbs of the program, a file for each.
 
-mod animation;
 mod compare;
 mod convert;
 mod demo;
@@ -10,7 +9,6 @@ mod help;
 mod info;
 mod light;
 mod shade;
-mod template;
 
 use std::fmt::Display;
 use std::path::Path;

@@ -271,7 +271,7 @@ impl ConvertJob {
             memory.check_frame(input, target)?;
             let blocks: u64 = worlds.iter().flat_map(World::sources).map(|source| gathered_bytes(&source.view)).sum();
             let bands = PreparedLight::bytes_for(&lighting.lobes()) as u64 * worlds.len() as u64;
-            let memory = memory.beside_levels(blocks.saturating_add(bands), input, target)?;
+            let memory = memory.beside_prepared(blocks.saturating_add(bands), input, target)?;
             // The map before, the one after, and all between; another where the error is measured.
             let copies = lighting.every.map_or(0, |every| every.frames.min(input.frames.len()) + 2);
             self.memory = memory.beside_maps(copies as u64, input, target)?;
@@ -280,11 +280,11 @@ impl ConvertJob {
         }
         let (coverage, worlds) = Coverage::check(input, whole, &shots, filter, self.missing, warnings)?;
         memory.check_frame(input, target)?;
-        let levels = target.views.iter().map(|view| {
+        let prepared = target.views.iter().map(|view| {
             let world = &worlds[view.world(worlds.len())];
-            Resampler { world, target: &view.view, filter: *filter }.level_bytes() as u64
+            Resampler { world, target: &view.view, filter: *filter }.filter_bytes() as u64
         });
-        let memory = memory.beside_levels(levels.max().unwrap_or(0), input, target)?;
+        let memory = memory.beside_prepared(prepared.max().unwrap_or(0), input, target)?;
         self.memory = memory.beside_channels(&mut self.layers, input, target)?;
         (self.coverage, self.worlds) = (coverage, worlds);
         Ok(())

@@ -6,7 +6,7 @@ use cosmorama::raster::Rgba;
 use cosmorama_io::Format;
 
 use crate::colour::LayerPlan;
-use crate::diagnostic::{CHANNELS, EVERY, FILTER, Result, SHUTTER};
+use crate::diagnostic::{CHANNELS, EVERY, Result, SHUTTER};
 use crate::input::{Input, InputView};
 use crate::job::{FrameMemory, QueueDepth};
 use crate::source::MemoryBudget;
@@ -61,13 +61,13 @@ impl MemoryBudget {
         self.beside(frame_bytes(input, target))
     }
 
-    /// Returns the budget that is left beside the levels of pyramids, which frames make one after the other. It is an
-    /// error if a frame and its levels do not fit.
-    pub(crate) fn beside_levels(self, levels: u64, input: &Input, target: &Target) -> Result<Self> {
-        let needed = frame_bytes(input, target).saturating_add(levels);
-        let why = format!("; smaller copies of the input, for {FILTER} ewa-pyramid, are {} of it", human(levels));
+    /// Returns the budget that is left beside what a filter or light prepares of the input, which frames do one after the
+    /// other. It is an error if a frame and that do not fit.
+    pub(crate) fn beside_prepared(self, prepared: u64, input: &Input, target: &Target) -> Result<Self> {
+        let needed = frame_bytes(input, target).saturating_add(prepared);
+        let why = format!("; what is prepared of the input is {} of it", human(prepared));
         self.allow(needed, "a frame", &why)?;
-        Ok(self.beside(levels))
+        Ok(self.beside(prepared))
     }
 
     /// Returns the budget that is left beside the sum of the pictures under a shutter. It is an error if a frame and that

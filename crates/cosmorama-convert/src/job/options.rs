@@ -53,7 +53,11 @@ pub(crate) fn filter(geometry: &GeometrySettings, warnings: &mut Vec<Diagnostic>
         return FilterSettings { kind, kernel: Labels::KERNEL, anti_ringing: false };
     }
     if !kind.uses_kernel() && (kernel != Kernel::ADAPTIVE || geometry.anti_ringing.is_some()) {
-        let message = format!("{KERNEL} and {ANTI_RINGING} have no effect on {FILTER} point and bilinear");
+        let without = match kind {
+            FilterKind::Classic(_) => geometry.filter.to_string(),
+            _ => "point and bilinear".to_owned(),
+        };
+        let message = format!("{KERNEL} and {ANTI_RINGING} have no effect on {FILTER} {without}");
         warnings.push(Diagnostic::warning(Code::NoEffect, message));
     }
     FilterSettings { kind, kernel, anti_ringing: geometry.anti_ringing.unwrap_or(geometry.kernel.anti_ringing) }

@@ -7,8 +7,7 @@ use super::names;
 use crate::WordError;
 
 /// A filter by name: `ewa`, `ewa-pyramid`, `point`, `bilinear`, `reference[:samples=N]`, or one of the literature, such as
-/// `summed-area`; for labels, `labels:nearest` or
-/// `labels:vote`.
+/// `summed-area`; for labels, `labels:nearest` or `labels:vote`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FilterName(pub FilterKind);
 

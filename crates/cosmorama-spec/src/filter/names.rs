@@ -17,7 +17,7 @@ pub(super) const FILTERS: [(&str, &str); 14] = [
     ("feibush-levoy-cook", "Texels weighed on the screen by a table"),
     ("gangnet", "Samples of the screen in a round kernel"),
     ("ewa:paper", "EWA as printed in 1986: a Gaussian, finite differences"),
-    ("ewa:integer", "The same in integers"),
+    ("ewa:integer", "EWA as printed, in integers"),
 ];
 
 /// Kernels, each with a line of help.

@@ -72,7 +72,7 @@ pub struct Memory {
     pub texels: usize,
     /// Pixels of the target.
     pub pixels: usize,
-    /// Upper bound of a pyramid's levels; zero for other filters.
+    /// Upper bound of a pyramid's levels, or of a table of sums; zero for filters that keep nothing.
     pub levels: usize,
     /// Estimate of a sequence's geometry in floats; a single frame keeps none.
     pub plan: usize,
@@ -134,7 +134,7 @@ impl Memory {
         Self {
             texels: world.texel_count() * size_of::<Rgba>(),
             pixels: target.width() * target.height() * size_of::<Rgba>(),
-            levels: resampler.level_bytes(),
+            levels: resampler.filter_bytes(),
             plan: resampler.plan_bytes_estimate(Arithmetic::Float),
             fixed_plan: resampler.plan_bytes_estimate(Arithmetic::Fixed),
         }

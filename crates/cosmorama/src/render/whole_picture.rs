@@ -9,7 +9,7 @@ use super::plan::{self, Arithmetic, Plan};
 use super::progress::Watch;
 use super::{Resampler, picture, pyramid};
 use crate::filter::lookup::labels::PreparedLabels;
-use crate::filter::{FilterKind, Labels, reference};
+use crate::filter::{Filter, FilterKind, Labels, reference};
 use crate::raster::{FixedCodec, FixedLight, Image, Rgba};
 
 impl Resampler<'_> {
@@ -102,9 +102,17 @@ impl Resampler<'_> {
         plan::bytes_estimate(self, arithmetic)
     }
 
-    /// Returns the greatest number of bytes that the levels of a pyramid take while a frame is made. It is 0 for other
-    /// filters, and where the world's own texels are large enough.
-    pub fn level_bytes(&self) -> usize {
-        if self.filter.kind == FilterKind::EwaPyramid { pyramid::bytes(self) } else { 0 }
+    /// Returns the greatest number of bytes that the filter keeps beside the world's light while a frame is made: the levels
+    /// of a pyramid, or a table of sums.
+    pub fn filter_bytes(&self) -> usize {
+        match self.filter.kind {
+            FilterKind::EwaPyramid => pyramid::bytes(self),
+            FilterKind::Classic(classic) => classic.setup(self.world).bytes,
+            FilterKind::Ewa
+            | FilterKind::Point
+            | FilterKind::Bilinear
+            | FilterKind::Labels(_)
+            | FilterKind::Reference { .. } => 0,
+        }
     }
 }

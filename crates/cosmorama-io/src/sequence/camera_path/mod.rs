@@ -79,7 +79,7 @@ impl CameraPath {
     /// Reads a path from the bytes of a file: a table as [`CameraPath::parse`] reads it, or an animated camera of a glTF file.
     ///
     /// # Errors
-    /// Those of [`CameraPath::parse`]; and when a glTF file is damaged, no rate is given for its times, it does not have the node,
+    /// When [`CameraPath::parse`] fails; when a glTF file is damaged, no rate is given for its times, it does not have the node,
     /// or nothing turns that.
     pub fn read(bytes: &[u8], source: &PathSource) -> Result<Self, CameraPathError> {
         if gltf::is_named(source.name) {

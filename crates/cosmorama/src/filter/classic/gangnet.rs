@@ -1,15 +1,12 @@
 use glam::DVec2;
 
-use super::region::reached;
+use super::region::{add, reached};
 use super::screen_kernel::ScreenKernel;
 use crate::camera::Footprint;
-use crate::filter::lookup;
-use crate::filter::semi_axes;
 use crate::filter::traits::{Prepared, bounded};
+use crate::filter::{lookup, semi_axes};
 use crate::raster::Rgba;
 use crate::world::World;
-
-use super::region::add;
 
 /// Samples on a grid of the screen, in the round kernel, each mapped to the texels and interpolated there: the screen is
 /// sampled as finely as the texture is (Gangnet, Perny & Coueignoux 1982).

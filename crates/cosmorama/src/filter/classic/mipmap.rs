@@ -29,8 +29,7 @@ impl PreparedMipMap<'_> {
         let owner = world.owner(footprint.direction);
         let seen = owner.and_then(|(view, _)| world.sources()[view].view.texel_footprint(footprint));
         let longer = seen.map_or(1.0, |(_, jacobian)| jacobian.x_axis.length().max(jacobian.y_axis.length()));
-        let level = longer.max(1.0).log2();
-        if level.is_finite() { level.min(self.levels.coarsest() as f64) } else { self.levels.coarsest() as f64 }
+        longer.max(1.0).log2().min(self.levels.coarsest() as f64)
     }
 }
 

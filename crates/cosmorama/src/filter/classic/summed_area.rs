@@ -11,8 +11,8 @@ use crate::world::{Source, World};
 /// The rectangle around a footprint's parallelogram, evenly weighted, by four look-ups in a table of sums (Crow 1984).
 ///
 /// A rectangle that crosses the edge of a view takes what lies in each view. Texels count by their solid angle. Sums are
-/// kept in f64: for 16384² texels of light between 0 and 1 they are right to 2⁻²⁵ of a texel's light, since they have no
-/// more than 2²⁸ terms of 53 bits.
+/// f64. A sum over 16384² texels of light up to 1 has 2¹⁴ additions along a column, each rounded by at most 2⁻²⁵ of a
+/// texel: the four look-ups of a rectangle are right to 2⁻⁹ of one texel's light, and to some 2⁻¹⁷ as roundings cancel.
 pub(super) struct PreparedSummedArea<'w> {
     world: &'w World,
     light: &'w [Rgba],
@@ -26,7 +26,7 @@ type Sums = [f64; 5];
 struct Table {
     columns: usize,
     rows: usize,
-    /// Does the picture repeat after the last column?
+    /// Whether the picture repeats after the last column.
     is_round: bool,
     sums: Vec<Sums>,
 }
@@ -107,7 +107,7 @@ impl Prepared for PreparedSummedArea<'_> {
             let half = seen.half_box().max(DVec2::splat(0.5)).min(DVec2::new(round, f64::INFINITY));
             let found = table.within(seen.place - half, seen.place + half);
             (0..5).for_each(|k| sum[k] += found[k]);
-            least = least.min(LEAST * f64::from(source.texel_pitch as f32).powi(2));
+            least = least.min(LEAST * source.texel_pitch.powi(2));
         }
         let [red, green, blue, alpha, solid_angle] = sum;
         if solid_angle > least {

@@ -111,7 +111,7 @@ fn it_is_ewa_where_a_pixel_holds_one_texel() {
         let plan = of(PYRAMID).plan(Arithmetic::Float).expect("the geometry of a pyramid");
         assert!(plan.apply(&light).pixels() == exact.pixels(), "{:?}", target.projection);
         assert!(of(PYRAMID).plan(Arithmetic::Fixed).is_none());
-        assert_eq!(of(PYRAMID).level_bytes(), 0);
+        assert_eq!(of(PYRAMID).filter_bytes(), 0);
     }
 }
 
@@ -124,7 +124,7 @@ fn a_plan_makes_the_same_pixels() {
             let resampler = Resampler { world: &world, target: &target, filter: PYRAMID };
             let plan = resampler.plan(Arithmetic::Float).expect("the geometry of a pyramid");
             assert!(plan.apply(&light).pixels() == resampler.render(&light).pixels());
-            assert!(plan.bytes() > 0 && resampler.level_bytes() > world.texel_count());
+            assert!(plan.bytes() > 0 && resampler.filter_bytes() > world.texel_count());
             let estimate = resampler.plan_bytes_estimate(Arithmetic::Float) as f64 / plan.bytes() as f64;
             assert!((0.3..3.0).contains(&estimate), "{estimate} of what the plan takes");
         }

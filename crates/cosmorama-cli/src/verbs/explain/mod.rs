@@ -1,3 +1,5 @@
+mod template;
+
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -11,7 +13,7 @@ use cosmorama_convert::{Explanation, ExplanationSettings, PathExplanation, Pictu
 use cosmorama_io::pending::Hidden;
 use serde_json::{Value, json};
 
-use super::{diagram, make_folder, template};
+use super::{diagram, make_folder};
 use crate::args::ExplainArgs;
 use crate::console::Console;
 use crate::failure::usage;

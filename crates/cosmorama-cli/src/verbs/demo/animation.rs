@@ -17,10 +17,10 @@ use cosmorama_convert::{
 use cosmorama_io::{FrameList, Metadata, WriteOptions, write};
 use cosmorama_spec::Size;
 
-use super::demo::{quoted, tell};
-use super::{convert, make_folder};
+use super::{quoted, tell};
 use crate::args::{DemoArgs, ProgressStyle};
 use crate::console::Console;
+use crate::verbs::{convert, make_folder};
 
 /// Edge of the world's faces, size of the frames, and frames in a second.
 const FACE: usize = 768;

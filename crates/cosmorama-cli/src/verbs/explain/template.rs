@@ -10,8 +10,8 @@ use cosmorama_convert::{GeometrySettings, Picture, refuse_existing};
 use cosmorama_io::pending::Hidden;
 use cosmorama_io::{Metadata, WriteOptions, write_hidden};
 
-use super::make_folder;
 use crate::console::Console;
+use crate::verbs::make_folder;
 
 /// Writes the guides over each picture of an output into a folder: a file for each layer. Returns their names.
 pub(super) fn write(

@@ -1,3 +1,5 @@
+mod animation;
+
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
@@ -15,7 +17,7 @@ use cosmorama_convert::{Conversion, Existing, face_placement, refuse_existing, t
 use cosmorama_io::{FacePlacement, Metadata, WriteOptions, write};
 use cosmorama_spec::{Cube, FilterName, Size};
 
-use super::{animation, convert, diagram, make_folder};
+use super::{convert, diagram, make_folder};
 use crate::args::{DemoArgs, ProgressStyle};
 use crate::console::Console;
 use crate::failure::usage;
@@ -157,7 +159,7 @@ fn repeatable_conversion(
 }
 
 /// Quotes a word for a shell.
-pub(super) fn quoted(word: &str) -> String {
+fn quoted(word: &str) -> String {
     let plain = |letter: char| letter.is_ascii_alphanumeric() || "-_./:=,+".contains(letter);
     if word.chars().all(plain) { word.to_owned() } else { format!("'{}'", word.replace('\'', "'\\''")) }
 }
@@ -178,6 +180,6 @@ fn draw_unfolded(folder: &Path, faces: &[PartialFace], target: &View, console: &
     tell(console, &raster, "the same as pixels", start)
 }
 
-pub(super) fn tell(console: &Console, path: &Path, what: &str, start: Instant) -> Result<()> {
+fn tell(console: &Console, path: &Path, what: &str, start: Instant) -> Result<()> {
     console.print(&format!("{:<40} {what} in {:.2} s\n", path.display().to_string(), start.elapsed().as_secs_f64()))
 }
