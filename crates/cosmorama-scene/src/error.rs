@@ -54,6 +54,14 @@ pub enum SceneError {
         /// Number of worlds.
         count: usize,
     },
+    /// A triangle names a part that the thing does not have.
+    #[error("a triangle is of part number {part}, but the thing has {count}, from 0 on")]
+    NoPart {
+        /// The part's number.
+        part: usize,
+        /// Number of parts.
+        count: usize,
+    },
     /// A row of spheres without spheres, or with too many.
     #[error("a row of {count} spheres: expected 1 to {most}")]
     Count {

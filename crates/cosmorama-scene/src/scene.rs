@@ -106,6 +106,10 @@ impl Scene {
     pub(crate) fn check(&self) -> Result<(), SceneError> {
         for object in &self.objects {
             object.parts.iter().try_for_each(|part| part.material.check())?;
+            let (part, count) = (object.shape.last_part(), object.parts.len());
+            if part >= count {
+                return Err(SceneError::NoPart { part, count });
+            }
             let is_glass = object.parts.iter().any(|part| part.material.glass.is_some());
             if let (true, Shape::Mesh(mesh)) = (is_glass, &object.shape)
                 && let Some(edge) = mesh.hole()

@@ -247,6 +247,9 @@ impl Explanation {
         let still = || vec![self.pictures.iter().map(|picture| picture.view.clone()).collect()];
         let frames = path.map_or_else(still, |path| path.views.clone());
         explain::Parallax::of(&frames, travel, nearest).ok_or_else(|| {
+            if travel < nearest {
+                return usage("no picture shows anything; choose another camera");
+            }
             usage(format!(
                 "{TRAVEL} {travel} is not less than {NEAREST} {nearest}: the camera would pass the nearest thing, which no picture \
                  of a world can show; put what is near into a layer of its own"

@@ -314,7 +314,7 @@ impl ConvertJob {
             warnings.push(Diagnostic::warning(Code::NoEffect, message));
             return Ok(());
         }
-        let has_formula = self.backdrop.as_ref().is_some_and(|backdrop| backdrop.formula.is_some());
+        let has_formula = self.layers().skip(1).any(|job| job.formula.is_some());
         if (!content.has_files() || has_formula) && blur.method == BlurMethod::Ellipse {
             return Err(usage(format!("{MOTION} ellipse averages texels, but a formula has none; leave it out")));
         }
@@ -337,8 +337,8 @@ impl ConvertJob {
         let Some(blur) = self.movement.as_ref().and_then(|movement| movement.blur) else { return Ok(None) };
         let frame = time(frame.unwrap_or_default());
         let times = blur.shutter.division(frame);
-        let behind = self.backdrop.as_ref().map_or(Ok(0), |backdrop| backdrop.moments_needed(&times))?;
-        let count = match self.moments_needed(&times)?.max(behind) {
+        let needed = self.layers().map(|job| job.moments_needed(&times)).collect::<Result<Vec<_>>>()?;
+        let count = match needed.into_iter().max().unwrap_or_default() {
             0 | 1 => return Ok(None),
             _ if blur.method == BlurMethod::Ellipse => Exposure::FEW,
             count => count,

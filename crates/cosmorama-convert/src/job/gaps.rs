@@ -13,7 +13,7 @@ use crate::target::{Movement, TargetView, time};
 
 /// Views of the target that belong to some frames: in one pose, or in the poses of one exposure.
 pub(crate) struct Shot {
-    /// Frames; none of a camera that rests, whose shot is that of all.
+    /// Frames that it stands for; empty if the camera does not move.
     pub(crate) frames: Vec<u64>,
     pub(crate) views: Vec<TargetView>,
 }

@@ -141,6 +141,9 @@ impl Finish {
         if let Some(wrong) = colours.into_iter().find(|colour| !colour.is_finite() || colour.min_element() < 0.0) {
             return Err(MaterialError::Colour(wrong.to_array()));
         }
+        if let Some(map) = self.normal_map.as_ref().filter(|map| !map.scale.is_finite()) {
+            return Err(MaterialError::NormalScale(map.scale));
+        }
         if super::INDICES.contains(&self.index) { Ok(()) } else { Err(MaterialError::Index(self.index)) }
     }
 }

@@ -53,6 +53,9 @@ pub enum MaterialError {
     /// A number of metallic-roughness is out of range.
     #[error("{0} is outside 0 to 1, the range of metallic, roughness and specular")]
     Part(f64),
+    /// The factor on a normal map is no number.
+    #[error("a factor of {0} on normals is not one: expected a number")]
+    NormalScale(f64),
     /// A colour is negative or not a number.
     #[error("{0:?} is no colour: expected numbers from 0")]
     Colour([f64; 3]),

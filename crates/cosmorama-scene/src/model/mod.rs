@@ -89,8 +89,8 @@ impl Contents {
 }
 
 impl Model {
-    /// Memory of a triangle at most, while it is read.
-    pub const TRIANGLE_BYTES: usize = 1200;
+    /// Memory of a triangle at most, while it is read: as a face twice, with its normals, coordinates, edges and tree.
+    pub const TRIANGLE_BYTES: usize = 1500;
 
     /// Reads a model.
     ///
@@ -104,7 +104,7 @@ impl Model {
 fn read(path: &Path, settings: &ModelSettings) -> Result<Model, ModelFault> {
     let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
     let Contents { faces, mut parts, cameras, mut notes, crease } = match extension.as_deref() {
-        Some("obj") => obj::read(path, settings.most)?,
+        Some("obj") => obj::read(path, settings)?,
         Some("gltf" | "glb") => gltf::read(path, settings.most)?,
         _ => return Err(ModelFault::Extension),
     };
@@ -119,6 +119,10 @@ fn read(path: &Path, settings: &ModelSettings) -> Result<Model, ModelFault> {
     }
     if let Some(material) = &settings.material {
         parts.iter_mut().for_each(|part| part.material = material.clone());
+    }
+    for part in &parts {
+        let fault = |why: String| ModelFault::Piece { piece: format!("material of {}", part.name), why };
+        part.material.check().map_err(|error| fault(format!("is out of range: {error}")))?;
     }
     Ok(Model { object: Object { shape: Shape::Mesh(Arc::new(mesh)), parts }, cameras, notes })
 }

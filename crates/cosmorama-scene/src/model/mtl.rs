@@ -1,12 +1,19 @@
 //! Materials of Wavefront OBJ.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
-use super::obj::numbers;
+use super::obj::{keyed, numbers};
 use crate::material::{Finish, Material, Paint};
 
+/// Materials of a library, by their names.
+pub(super) struct Library {
+    pub(super) materials: HashMap<String, Material>,
+    /// Keys that change what a material looks like, and are not read.
+    pub(super) ignored: BTreeSet<String>,
+}
+
 /// A material of a file.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy)]
 struct Entry {
     diffuse: [f64; 3],
     specular: [f64; 3],
@@ -14,33 +21,70 @@ struct Entry {
     shininess: f64,
 }
 
-/// Reads the materials of a text, by their names. Pictures are not read: their number is returned, too.
-pub(super) fn materials(text: &str) -> Result<(HashMap<String, Material>, usize), (usize, String)> {
-    let (mut entries, mut name, mut pictures) = (HashMap::<String, Entry>::new(), None, 0);
-    for (number, line) in text.lines().enumerate() {
-        let Some(key) = line.split_ascii_whitespace().next() else { continue };
-        let rest = line.trim_start()[key.len()..].trim();
-        if key == "newmtl" {
-            name = Some(rest.to_owned());
+/// Keys that say nothing of what is shown: comments, ambient light, models of illumination, and the index of glass.
+const IDLE: [&str; 4] = ["#", "Ka", "illum", "Ni"];
+
+impl Library {
+    /// Reads the materials of a text. A fault comes with its line.
+    pub(super) fn parse(text: &str) -> Result<Self, (usize, String)> {
+        let (mut entries, mut name, mut ignored) = (HashMap::<String, Entry>::new(), None, BTreeSet::new());
+        for (number, line) in text.lines().enumerate() {
+            let Some((key, rest)) = keyed(line) else { continue };
+            if key == "newmtl" {
+                entries.insert(rest.to_owned(), Entry::default());
+                name = Some(rest.to_owned());
+            } else if let Some(entry) = name.as_ref().and_then(|name| entries.get_mut(name)) {
+                let is_read = entry.read(key, rest).map_err(|why| (number + 1, why))?;
+                let is_idle = IDLE.iter().any(|idle| key == *idle || key.starts_with('#'));
+                if !is_read && !is_idle {
+                    ignored.insert(key.to_owned());
+                }
+            }
         }
-        let Some(name) = &name else { continue };
-        let entry = entries.entry(name.clone()).or_default();
-        let at = |why: String| (number + 1, why);
-        match key {
-            "Kd" => entry.diffuse = numbers(rest).map_err(at)?,
-            "Ks" => entry.specular = numbers(rest).map_err(at)?,
-            "Ke" => entry.emissive = numbers(rest).map_err(at)?,
-            "Ns" => entry.shininess = numbers(rest).map(|[number]| number).map_err(at)?,
-            _ if key.starts_with("map_") => pictures += 1,
-            _ => {}
-        }
+        let materials = entries.into_iter().map(|(name, entry)| (name, entry.material())).collect();
+        Ok(Self { materials, ignored })
     }
-    Ok((entries.into_iter().map(|(name, entry)| (name, entry.material())).collect(), pictures))
+}
+
+impl Default for Entry {
+    /// Returns a material of which nothing is said: light grey, as in Blender.
+    fn default() -> Self {
+        Self { diffuse: [0.8; 3], specular: [0.0; 3], emissive: [0.0; 3], shininess: 0.0 }
+    }
+}
+
+/// Reads a colour: one number for all, or three. `None` if it is a spectrum, or of CIE's X, Y and Z.
+fn colour(text: &str) -> Result<Option<[f64; 3]>, String> {
+    match text.split_ascii_whitespace().next() {
+        Some("xyz" | "spectral") => Ok(None),
+        _ if text.split_ascii_whitespace().count() == 1 => numbers(text).map(|[grey]| Some([grey; 3])),
+        _ => numbers(text).map(Some),
+    }
 }
 
 impl Entry {
+    /// Reads a line of a material; false if what it says is not read.
+    fn read(&mut self, key: &str, text: &str) -> Result<bool, String> {
+        let into = match key {
+            "Kd" => &mut self.diffuse,
+            "Ks" => &mut self.specular,
+            "Ke" => &mut self.emissive,
+            "Ns" => {
+                [self.shininess] = numbers(text)?;
+                return Ok(true);
+            }
+            // Opaque is what all are.
+            "d" => return Ok(numbers(text).is_ok_and(|[part]: [f64; 1]| part == 1.0)),
+            "Tr" => return Ok(numbers(text).is_ok_and(|[part]: [f64; 1]| part == 0.0)),
+            _ => return Ok(false),
+        };
+        let found = colour(text)?;
+        *into = found.unwrap_or(*into);
+        Ok(found.is_some())
+    }
+
     /// Returns the metallic-roughness that is nearest: metal if it reflects more than an insulator can, with an α by
-    /// which GGX's lobe has the width of Phong's, √(2/(n + 2)).
+    /// which GGX's lobe has the width of Blinn and Phong's, √(2/(n + 2)).
     fn material(&self) -> Material {
         /// Greatest part of light that insulators reflect straight on.
         const INSULATOR: f64 = 0.16;

@@ -1,13 +1,15 @@
 //! Wavefront OBJ. Read here, since errors then name the line, and nothing in a file can stop the program.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use cosmorama::sphere::Angle;
 use glam::{DVec2, DVec3};
 
-use super::mtl::materials;
-use super::{Contents, ModelFault};
+use super::mtl::Library;
+use super::{Contents, ModelFault, ModelSettings};
 use crate::material::Material;
 use crate::scene::Part;
 use crate::shape::Face;
@@ -27,28 +29,36 @@ struct Reader {
     /// Parts by group and material.
     parts: HashMap<(String, Option<String>), usize>,
     contents: Contents,
-    /// Materials of the libraries so far.
-    materials: HashMap<String, Material>,
+    /// Materials of the libraries so far; `None` if the file's own do not count.
+    materials: Option<HashMap<String, Material>>,
+    /// Names of materials that no library has.
+    lost: BTreeSet<String>,
     /// Folder of the file.
     folder: PathBuf,
 }
+
+/// Greatest number of bytes of a library of materials.
+const LARGEST_LIBRARY: u64 = 1 << 24;
 
 /// A corner of a face: indices of its point, texture coordinates and normal.
 type Corner = (usize, Option<usize>, Option<usize>);
 
 /// Reads the triangles of a file; other polygons are cut into triangles.
-pub(super) fn read(path: &Path, most: usize) -> Result<Contents, ModelFault> {
+pub(super) fn read(path: &Path, settings: &ModelSettings) -> Result<Contents, ModelFault> {
     let text = std::fs::read(path)?;
     let text = String::from_utf8_lossy(&text);
     let count = text.lines().map(triangles).sum();
-    if count > most {
-        return Err(ModelFault::TooLarge { count, most });
+    if count > settings.most {
+        return Err(ModelFault::TooLarge { count, most: settings.most });
     }
-    let mut reader = Reader::new(path.parent().unwrap_or(Path::new("")).to_owned());
+    let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+    let mut reader = Reader::new(folder, settings.material.is_none());
     for (number, line) in text.lines().enumerate() {
         reader.line(line).map_err(|why| ModelFault::Line { line: number + 1, why })?;
     }
     reader.name_parts();
+    let lost = reader.lost.into_iter().map(|name| format!("material {name} is in no library: its parts are mirrors"));
+    reader.contents.notes.extend(lost);
     Ok(reader.contents)
 }
 
@@ -59,7 +69,7 @@ fn triangles(line: &str) -> usize {
 }
 
 impl Reader {
-    fn new(folder: PathBuf) -> Self {
+    fn new(folder: PathBuf, has_materials: bool) -> Self {
         Self {
             points: Vec::new(),
             normals: Vec::new(),
@@ -68,20 +78,18 @@ impl Reader {
             material: None,
             parts: HashMap::new(),
             contents: Contents::new(CREASE),
-            materials: HashMap::new(),
+            materials: has_materials.then(HashMap::new),
+            lost: BTreeSet::new(),
             folder,
         }
     }
 
     fn line(&mut self, line: &str) -> Result<(), String> {
-        let mut words = line.split_ascii_whitespace();
-        let Some(key) = words.next() else { return Ok(()) };
-        let rest = line.trim_start()[key.len()..].trim();
+        let Some((key, rest)) = keyed(line) else { return Ok(()) };
         match key {
             "v" => self.points.push(numbers(rest)?.into()),
             "vn" => self.normals.push(numbers(rest)?.into()),
-            // Rows of textures count from the top.
-            "vt" => self.uvs.push(numbers(rest).map(|[u, v]| DVec2::new(u, 1.0 - v))?),
+            "vt" => self.uvs.push(texture_coordinates(rest)?),
             "f" => return self.face(rest),
             "g" | "o" => self.group = rest.to_owned(),
             "mtllib" => return self.library(rest),
@@ -93,18 +101,25 @@ impl Reader {
 
     /// Reads a library of materials; one that is missing is told.
     fn library(&mut self, name: &str) -> Result<(), String> {
-        let bytes = match std::fs::read(self.folder.join(name)) {
-            Ok(bytes) => bytes,
+        let Some(materials) = &mut self.materials else { return Ok(()) };
+        let mut bytes = Vec::new();
+        let file = File::open(self.folder.join(name));
+        match file.and_then(|file| file.take(LARGEST_LIBRARY + 1).read_to_end(&mut bytes)) {
+            Ok(count) if count as u64 > LARGEST_LIBRARY => {
+                return Err(format!("{name} has more than {LARGEST_LIBRARY} bytes"));
+            }
+            Ok(_) => {}
             Err(error) => {
                 self.contents.notes.push(format!("its materials are not read: {name}: {error}"));
                 return Ok(());
             }
-        };
-        let (materials, pictures) = materials(&String::from_utf8_lossy(&bytes))
+        }
+        let library = Library::parse(&String::from_utf8_lossy(&bytes))
             .map_err(|(line, why)| format!("in {name}, line {line}: {why}"))?;
-        self.materials.extend(materials);
-        if pictures > 0 {
-            self.contents.notes.push(format!("{pictures} pictures of {name} are not read"));
+        materials.extend(library.materials);
+        if !library.ignored.is_empty() {
+            let ignored: Vec<String> = library.ignored.into_iter().collect();
+            self.contents.notes.push(format!("of {name} these are not read: {}", ignored.join(", ")));
         }
         Ok(())
     }
@@ -151,8 +166,11 @@ impl Reader {
         let count = self.parts.len();
         let part = *self.parts.entry((self.group.clone(), self.material.clone())).or_insert(count);
         if part == count {
-            let material = self.material.as_ref().and_then(|name| self.materials.get(name));
-            let material = material.cloned().unwrap_or(Material::MIRROR);
+            let found = self.material.as_ref().zip(self.materials.as_ref()).map(|(name, all)| (name, all.get(name)));
+            if let Some((name, None)) = found {
+                self.lost.insert(name.clone());
+            }
+            let material = found.and_then(|(_, material)| material).cloned().unwrap_or(Material::MIRROR);
             self.contents.parts.push(Part { name: self.group.clone(), material, world: 0 });
         }
         part
@@ -160,14 +178,29 @@ impl Reader {
 
     /// Names parts by their materials where their groups do not tell them apart.
     fn name_parts(&mut self) {
-        let groups: Vec<&String> = self.parts.keys().map(|(group, _)| group).collect();
+        let mut counts: HashMap<&String, usize> = HashMap::new();
+        self.parts.keys().for_each(|(group, _)| *counts.entry(group).or_default() += 1);
         for ((group, material), part) in &self.parts {
-            let is_shared = group.is_empty() || groups.iter().filter(|other| **other == group).count() > 1;
+            let is_shared = group.is_empty() || counts[group] > 1;
             if let (true, Some(material)) = (is_shared, material) {
                 self.contents.parts[*part].name = material.clone();
             }
         }
     }
+}
+
+/// Splits a line into its key and the rest; `None` if it is blank.
+pub(super) fn keyed(line: &str) -> Option<(&str, &str)> {
+    let line = line.trim_ascii();
+    let (key, rest) = line.split_once(|letter: char| letter.is_ascii_whitespace()).unwrap_or((line, ""));
+    (!key.is_empty()).then_some((key, rest.trim_ascii()))
+}
+
+/// Reads u, and v, which counts from the bottom and may be left out.
+fn texture_coordinates(text: &str) -> Result<DVec2, String> {
+    let [u, v] =
+        if text.split_ascii_whitespace().count() == 1 { numbers(text).map(|[u]| [u, 0.0])? } else { numbers(text)? };
+    Ok(DVec2::new(u, 1.0 - v))
 }
 
 /// Reads the first numbers of a line.

@@ -36,8 +36,9 @@ pub enum Background {
 /// Makes the picture of a scene, in linear light premultiplied by alpha. The first world is seen behind the things.
 ///
 /// Each pixel sees one cell, or several where an outline crosses it or where curvature shows it much of the world at
-/// once. Each cell is one average. Where edges of meshes cross a pixel, many rays tell what each surface covers of it. What balls of few pixels reflect is the sum over parts of the world. The result does
-/// not depend on the number of threads.
+/// once. Each cell is one average. Where edges of meshes cross a pixel, many rays tell what each surface covers of it.
+/// What balls of few pixels reflect is the sum over parts of the world. The result does not depend on the number of
+/// threads.
 ///
 /// # Errors
 /// When a world is missing, or has no maps of light for the materials under it.

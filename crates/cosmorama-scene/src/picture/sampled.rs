@@ -27,14 +27,14 @@ struct Sample {
     normal: DVec3,
 }
 
-/// A square of a pixel, and the halvings to it.
+/// A square of a pixel.
 #[derive(Clone, Copy)]
 struct Square {
     corner: [f64; 2],
     side: f64,
 }
 
-/// Rays of a pixel that an edge crosses, as a power of two.
+/// Rays of a pixel that an edge crosses: a power of four.
 const SAMPLES: u32 = 64;
 
 /// Cosine of the angle between normals up to which samples are of one smooth surface.

@@ -41,17 +41,24 @@ impl MaterialEntry {
             Some(Kind::Metallic) | None => Material::of(Finish { roughness: ROUGHNESS, ..Finish::default() }),
         };
         let finish = match usual.paintable() {
-            Some(usual) if self.is_painted() => Some(Arc::new(self.finish(usual, source, reader)?)),
+            Some(found) if self.is_painted() || usual.finish.is_some() => {
+                Some(Arc::new(self.finish(found, source, reader)?))
+            }
             None if self.is_painted() => {
                 let message = "color, textures, metallic, roughness and specular are for the kinds matte and metallic";
                 return Err(wrong(message));
             }
-            _ => usual.finish.clone(),
+            _ => None,
         };
         let is_glass = usual.glass.is_some();
         if !is_glass && (self.absorption.is_some() || self.surfaces.is_some() || self.ior.is_some() && finish.is_none())
         {
             return Err(wrong("ior, absorption and surfaces are for the kind glass"));
+        }
+        if let (Some([red, green, blue]), true) = (self.ior.map(|ior| ior.by_colour()), finish.is_some())
+            && (red != green || green != blue)
+        {
+            return Err(wrong("ior is one number here; three are for the kind glass"));
         }
         if self.alpha.is_some() && finish.is_some() {
             return Err(wrong("alpha is the square of roughness here; give that"));

@@ -16,6 +16,11 @@ pub(crate) struct Chart {
 }
 
 impl Chart {
+    /// Returns the chart as it is seen from behind, where the surface's normal is reversed: dents go the other way, too.
+    pub(crate) fn reversed(self) -> Self {
+        Self { tangent: -self.tangent, bitangent: -self.bitangent, ..self }
+    }
+
     /// Returns the changes of the coordinates, as columns.
     pub(crate) fn jacobian(&self) -> DMat2 {
         DMat2::from_cols(self.dx, self.dy)

@@ -46,6 +46,14 @@ impl Shape {
         }
     }
 
+    /// Returns the greatest number of a part that its surface names.
+    pub(crate) fn last_part(&self) -> usize {
+        match self {
+            Self::Sphere(_) => 0,
+            Self::Mesh(mesh) => mesh.last_part(),
+        }
+    }
+
     /// Returns it if it is a mesh.
     pub(crate) fn mesh(&self) -> Option<&Mesh> {
         match self {

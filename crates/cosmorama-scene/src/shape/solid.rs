@@ -23,6 +23,6 @@ pub(crate) struct Wall {
     pub(crate) distance: f64,
     /// Index of the part of the object.
     pub(crate) part: usize,
-    /// Its place on the surface's pictures, if the surface has such coordinates and they were asked for.
+    /// Its place on the surface's pictures, if the surface has such coordinates.
     pub(crate) chart: Option<Chart>,
 }

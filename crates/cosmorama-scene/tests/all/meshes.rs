@@ -4,13 +4,13 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use cosmorama::camera::PixelPoint;
-use cosmorama::filter::{FilterKind, FilterSettings};
+use cosmorama::filter::{FilterKind, FilterSettings, Texture, Wrap};
 use cosmorama::prelude::*;
 use cosmorama_scene::{
-    Background, Camera, Face, LightMaps, Material, Mesh, MeshError, Normals, Object, Orthographic, Part, Place, Scene,
-    SceneError, Shape, Sky, Sphere, Surroundings, picture,
+    Background, Camera, Face, Finish, LightMaps, Material, Mesh, MeshError, NormalMap, Normals, Object, Orthographic,
+    Paint, Part, Place, Scene, SceneError, Shape, Sky, Sphere, Surroundings, picture,
 };
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 const MADE: Normals = Normals { kept: true, crease: Angle::from_degrees(40.0) };
 
@@ -252,4 +252,49 @@ fn glass_with_a_hole_is_refused() {
     let refused = LightMaps::of(&scene, 0, Sky::new(&world, &light)).unwrap_err();
     let SceneError::Open(edge) = refused else { panic!("{refused}") };
     assert!(edge.iter().flatten().all(|part| part.abs() == 1.0), "{edge:?}");
+}
+
+/// A square of side 2 about the origin that faces +Z, with a picture whose top is at +Y.
+fn square() -> Vec<Face> {
+    let corner = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+    let uv = |corner: DVec3| DVec2::new(0.5 + 0.5 * corner.x, 0.5 - 0.5 * corner.y);
+    let corners = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
+    let half = |corners: [DVec3; 3]| Face { uvs: Some(corners.map(uv)), ..face(corners) };
+    vec![half([corners[0], corners[1], corners[2]]), half([corners[0], corners[2], corners[3]])]
+}
+
+#[test]
+fn pictures_on_meshes_stand_upright() {
+    // Red above on the left, green above on the right, blue below.
+    let painted = Image::from_fn(64, 64, |i, j| match (i < 32, j < 32) {
+        (true, true) => Rgba::opaque(1.0, 0.0, 0.0),
+        (false, true) => Rgba::opaque(0.0, 1.0, 0.0),
+        _ => Rgba::opaque(0.0, 0.0, 1.0),
+    });
+    let emissive = Paint::picture(Texture::new(painted, [Wrap::Clamp; 2]));
+    let dark = Finish { base: Paint::plain([0.0; 3]), emissive, specular: 0.0, ..Finish::default() };
+    let image = made(vec![object(square(), Material::of(dark))], &parallel(2.0, [40, 40]));
+    for (at, expected) in [((8, 8), [1.0, 0.0, 0.0]), ((31, 8), [0.0, 1.0, 0.0]), ((20, 31), [0.0, 0.0, 1.0])] {
+        let found = image.get(at.0, at.1).0;
+        assert!((0..3).all(|k| (found[k] - expected[k]).abs() < 1e-3), "{at:?}: {found:?} for {expected:?}");
+    }
+}
+
+/// A mirror whose normals lean towards u stands as a plane that leans so, from before and from behind.
+#[test]
+fn dents_are_the_same_plane_from_both_sides() {
+    let (sin, cos) = 0.2f64.sin_cos();
+    let code = |part: f64| (0.5 + 0.5 * part) as f32;
+    let leaning = Image::filled(4, 4, Rgba::opaque(code(sin), code(0.0), code(cos)));
+    let normal_map = Some(NormalMap::new(&leaning, [Wrap::Repeat; 2], 1.0));
+    let mirror = Finish { metallic: 1.0, normal_map, ..Finish::default() };
+    for side in [1.0, -1.0] {
+        let place = Place { eye: DVec3::new(0.0, 0.0, 9.0 * side), target: DVec3::ZERO };
+        let camera = Camera::Orthographic(Orthographic::new(place, 2.0, [24, 24]).unwrap());
+        let image = made(vec![object(square(), Material::of(mirror.clone()))], &camera);
+        let (view, normal) = (DVec3::Z * -side, DVec3::new(sin, 0.0, cos));
+        let expected = light(view - 2.0 * view.dot(normal) * normal);
+        let found = image.get(12, 12).0;
+        assert!((0..3).all(|k| (found[k] - expected[k]).abs() < 0.02), "{side}: {found:?} for {expected:?}");
+    }
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use cosmorama::camera::PixelPoint;
-use cosmorama_scene::{Material, Model, ModelSettings, Shape};
+use cosmorama_scene::{Finish, Material, Model, ModelSettings, Shape};
 
 const SETTINGS: ModelSettings = ModelSettings { crease: None, material: None, most: 1_000_000, placing: None };
 
@@ -165,6 +165,13 @@ fn faults_of_gltf_files_are_named() {
         (r#""scene": 0, "scenes": [{"nodes": [0, 1, 3]}],"#, "", "no scene"),
         (r#""mode": 5"#, r#""mode": 0"#, "no triangle"),
         ("{", "", "line 2"),
+        (r#""POSITION": 0"#, r#""POSITION": 9"#, "accessor that is not there"),
+        (
+            r#""perspective": {"#,
+            r#""orthographic": {"xmag": 1, "ymag": 1, "zfar": 2, "#,
+            "camera 0 does not have the numbers",
+        ),
+        (r#""byteLength": 52"#, r#""byteLength": 9000000000000"#, "memory allows"),
     ];
     for (k, (from, to, says)) in cases.into_iter().enumerate() {
         let error = Gltf::new(&format!("fault{k}"), &SQUARES.replacen(from, to, 1)).file.read().unwrap_err();
@@ -172,4 +179,56 @@ fn faults_of_gltf_files_are_named() {
     }
     let error = File::new("empty.glb", "").read().unwrap_err();
     assert!(error.contains("empty.glb"), "{error}");
+}
+
+/// Returns what a part is made of.
+fn finish(model: &Model, part: usize) -> &Finish {
+    model.object.parts[part].material.finish.as_ref().expect("metallic-roughness")
+}
+
+#[test]
+fn materials_of_obj_are_read_by_their_numbers() {
+    let library = "\u{b}\n\u{3000}\n# a library\nnewmtl red\nKd 0.7 0.1 0.1\nKs 0.02\nNs 98\nKe 0 0 2\nillum 2\nd 1.0\n\
+                   newmtl steel\nKd 0.1 0.1 0.1\nKs 0.6 0.55 0.5\nmap_Kd none.png\nbump none.png\nd 0.5\nnewmtl plain\nKd spectral x.rfl\n";
+    let library = File::new("colours.mtl", library);
+    let name = library.0.file_name().unwrap().to_string_lossy();
+    let text = format!(
+        "\u{b}\n\u{3000}\n{SQUARE}vt 0.5\nmtllib {name}\nusemtl red\nf 1 2 3\nusemtl steel\nf 1 3 4\nusemtl plain\nf 1 2 4\n\
+         usemtl gone\nf 2 3 4\n"
+    );
+    let file = File::new("colours.obj", &text);
+    let model = file.read().unwrap();
+    let red = finish(&model, 0);
+    assert_eq!((red.base.colour, red.emissive.colour, red.metallic), ([0.7, 0.1, 0.1], [0.0, 0.0, 2.0], 0.0));
+    // α = √(2/(98 + 2)), of which roughness is the root; half of an insulator's 0.04.
+    assert!((red.roughness.powi(4) - 0.02).abs() < 1e-12 && (red.specular - 0.5).abs() < 1e-12, "{red:?}");
+    let steel = finish(&model, 1);
+    assert_eq!((steel.base.colour, steel.metallic), ([0.6, 0.55, 0.5], 1.0));
+    assert_eq!(finish(&model, 2).base.colour, [0.8; 3]);
+    assert_eq!(model.object.parts[3].material, Material::MIRROR);
+    let notes = model.notes.join("; ");
+    assert!(notes.contains("not read: Kd, bump, d, map_Kd") && notes.contains("material gone"), "{notes}");
+    // Where another material is given, libraries do not count.
+    let material = Some(Material::MATTE);
+    let matt = Model::read(&file.0, &ModelSettings { material, ..SETTINGS }).unwrap();
+    assert!(matt.notes.is_empty(), "{:?}", matt.notes);
+    let wrong = File::new("wrong.mtl", "newmtl x\nKd -1 0 0\n");
+    let name = wrong.0.file_name().unwrap().to_string_lossy();
+    let error = File::new("dark.obj", &format!("{SQUARE}mtllib {name}\nusemtl x\nf 1 2 3\n")).read().unwrap_err();
+    assert!(error.contains("material of x is out of range"), "{error}");
+}
+
+#[test]
+fn materials_of_gltf_are_read_by_their_numbers() {
+    let text = SQUARES.replacen(r#""mode": 5"#, r#""mode": 5, "material": 0"#, 1).replacen(
+        r#""asset""#,
+        r#""extensionsUsed": ["KHR_materials_unlit"], "materials": [{"emissiveFactor": [0.25, 0, 0.5], "pbrMetallicRoughness":
+           {"baseColorFactor": [0.5, 0.25, 1, 1], "metallicFactor": 0.5, "roughnessFactor": 0.75}}], "asset""#,
+        1,
+    );
+    let model = Gltf::new("paint", &text).file.read().unwrap();
+    let found = finish(&model, 0);
+    assert_eq!((found.base.colour, found.emissive.colour), ([0.5, 0.25, 1.0], [0.25, 0.0, 0.5]));
+    assert_eq!((found.metallic, found.roughness), (0.5, 0.75));
+    assert!(model.notes.join("; ").contains("KHR_materials_unlit is not applied"), "{:?}", model.notes);
 }

@@ -96,13 +96,25 @@ fn directions(footprint: &Footprint) -> impl Iterator<Item = Direction> {
     (0..SAMPLES * SAMPLES).filter_map(move |k| footprint?.direction_at(place(k % SAMPLES), place(k / SAMPLES)))
 }
 
+/// Returns a flat footprint with the least breadth that counts.
+fn broadened(footprint: &Footprint) -> Footprint {
+    let Footprint { direction, jacobian: DirectionJacobian { dx, dy } } = *footprint;
+    let along = if dx.length_squared() >= dy.length_squared() { dx } else { dy }.normalize();
+    let length = (dx.length_squared() + dy.length_squared()).sqrt();
+    let jacobian = DirectionJacobian { dx: along * length, dy: direction.vector().cross(along) * NARROWEST };
+    Footprint { direction, jacobian }
+}
+
 /// Returns a footprint as filters take it: neither without width nor wider than [`WIDEST`]. `None` if it is not finite.
 pub(crate) fn bounded(footprint: &Footprint) -> Option<Footprint> {
     let Footprint { direction, jacobian: DirectionJacobian { dx, dy } } = *footprint;
     let (x, y) = (dx.length_squared(), dy.length_squared());
     let widest = x.max(y);
     if (NARROWEST * NARROWEST..=WIDEST * WIDEST).contains(&widest) {
-        return if x + y < f64::INFINITY { Some(*footprint) } else { None };
+        // Of one side, or of two along one line, nothing could be inverted.
+        let is_flat = dx.cross(dy).length_squared() < NARROWEST * NARROWEST * widest;
+        let whole = || if is_flat { broadened(footprint) } else { *footprint };
+        return (x + y < f64::INFINITY).then(whole);
     }
     if !(dx.is_finite() && dy.is_finite() && direction.vector().is_finite()) {
         return None;

@@ -58,7 +58,15 @@ impl SceneReader for Reader {
         let file = read(path, &self.limits).map_err(|error| error.to_string())?;
         Ok(match kind {
             PictureKind::Colour => file.to_light(),
-            PictureKind::Numbers => file.image.to_light(&Transfer::Linear),
+            PictureKind::Numbers => {
+                // Numbers are what they are, whatever alpha says of their place.
+                let mut numbers = file.image.to_light(&Transfer::Linear);
+                for pixel in numbers.pixels_mut() {
+                    let [x, y, z] = pixel.unpremultiplied();
+                    *pixel = Rgba::opaque(x, y, z);
+                }
+                numbers
+            }
         })
     }
 
@@ -140,7 +148,7 @@ fn option_of(error: &MaterialError) -> &'static str {
         MaterialError::Index(_) => "--ior",
         MaterialError::Absorption(_) => "--absorption",
         MaterialError::Surfaces(_) => "--surfaces",
-        MaterialError::Part(_) | MaterialError::Colour(_) => "--material",
+        MaterialError::Part(_) | MaterialError::Colour(_) | MaterialError::NormalScale(_) => "--material",
     }
 }
 

@@ -42,6 +42,8 @@ struct Layer {
     opacity: Option<Spanned<f64>>,
     /// Poses that turn it, relative to the world file.
     path: Option<Spanned<String>>,
+    /// Frames a second, where the path has time instead of frame.
+    fps: Option<Spanned<f64>>,
     /// Rule for its frames; the first layer has the output's.
     frames: Option<Spanned<String>>,
 }
@@ -72,7 +74,7 @@ struct Text<'a> {
 /// Description of a world file's content.
 const SCHEMA: &str = "a [[view]] for each image, with image = \"FILE\", and where wanted spec = \"SPEC\", priority = WHOLE \
                       NUMBER, feather = DEGREES, mask = \"FILE\"; or a [[layer]] for each world, the nearest first, with \
-                      image, and where wanted spec, opacity = 0 to 1, path = \"FILE\", frames = \"hold\"";
+                      image, and where wanted spec, opacity = 0 to 1, path = \"FILE\", fps = NUMBER, frames = \"hold\"";
 
 /// Rewrites a message of the TOML reader without programming terms.
 fn in_words(message: &str) -> String {
@@ -115,9 +117,11 @@ pub(crate) fn listed(
     let text = read(name, access)?;
     let source = Text { name, text: &text };
     let file = source.parse()?;
-    if !file.layer.is_empty() {
-        return Err(source
-            .error(Some(file.layer[0].image.span()), "layers are for convert: one world is expected here, of views"));
+    source.layers(&file)?;
+    if let Some(layer) = file.layer.first() {
+        let message =
+            "layers of layers are not read, nor are layers where one world is expected; name a file of [[view]]s";
+        return Err(source.error(Some(layer.image.span()), message));
     }
     if file.view.is_empty() {
         bail!(
@@ -143,13 +147,7 @@ pub(crate) fn layers(name: &str, files: &dyn Files) -> Result<Vec<Backdrop>> {
     let access = Access { files, memory: MemoryBudget::new(None), decoded: &DecodedPicture::default() };
     let text = read(name, access)?;
     let source = Text { name, text: &text };
-    let file = source.parse()?;
-    if let (Some(view), Some(_)) = (file.view.first(), file.layer.first()) {
-        let message =
-            "both [[view]] and [[layer]]; name the views in a file of their own, and that as the image of a layer";
-        return Err(source.error(Some(view.image.span()), message));
-    }
-    file.layer.iter().enumerate().map(|(index, layer)| layer.backdrop(&source, index == 0)).collect()
+    source.layers(&source.parse()?)
 }
 
 fn read(name: &str, access: Access) -> Result<String> {
@@ -183,11 +181,12 @@ impl Layer {
                 source.error(Some(given.span()), &format!("opacity = {opacity}: expected a number from 0 to 1"))
             );
         }
-        let poses = |path: &Spanned<String>| PoseFile {
-            file: beside(path.get_ref()),
-            fps: None,
-            smoothness: Smoothness::default(),
-        };
+        let fps = self.fps.as_ref().map(|fps| *fps.get_ref());
+        if let (Some(number), Some(given)) = (fps.filter(|fps| !(fps.is_finite() && *fps > 0.0)), &self.fps) {
+            return Err(source.error(Some(given.span()), &format!("fps = {number}: expected a number more than 0")));
+        }
+        let poses =
+            |path: &Spanned<String>| PoseFile { file: beside(path.get_ref()), fps, smoothness: Smoothness::default() };
         Ok(Backdrop {
             from: self.spec.as_ref().map(spec).transpose()?,
             frames: self.frames.as_ref().map(frames).transpose()?.unwrap_or_default(),
@@ -286,6 +285,16 @@ impl Entry {
 }
 
 impl Text<'_> {
+    /// Returns the layers of a file, the nearest first.
+    fn layers(&self, file: &WorldFile) -> Result<Vec<Backdrop>> {
+        if let (Some(view), Some(_)) = (file.view.first(), file.layer.first()) {
+            let message =
+                "both [[view]] and [[layer]]; name the views in a file of their own, and that as the image of a layer";
+            return Err(self.error(Some(view.image.span()), message));
+        }
+        file.layer.iter().enumerate().map(|(index, layer)| layer.backdrop(self, index == 0)).collect()
+    }
+
     fn parse(&self) -> Result<WorldFile> {
         toml::from_str(self.text)
             .map_err(|error| self.error(error.span(), &format!("{}; expected {SCHEMA}", in_words(error.message()))))

@@ -104,24 +104,22 @@ impl Table<'_> {
         let at = |name: &str| self.names.iter().position(|other| other == name);
         let lacking = |name: &str| self.error_at(self.header, &format!("no column {name}; {EXPECTED}"));
         let gyroflow = self.gyroflow(is_of_input);
-        if let (Some(turn), Some(time), Some(fps)) = (&gyroflow, at(MILLISECONDS), fps) {
-            let turn = Turn::Gyroflow(turn.clone());
-            return Ok(Columns { time, rate: fps / 1000.0, turn, fov: None, ignored: Vec::new() });
-        }
-        if let (Some(turn), Some(time)) = (gyroflow, at("frame")) {
-            return Ok(Columns { time, rate: 1.0, turn: Turn::Gyroflow(turn), fov: None, ignored: Vec::new() });
-        }
-        let (time, rate) = match (at("frame"), at("time"), fps) {
-            (Some(_), _, Some(_)) => {
+        let milliseconds = at(MILLISECONDS).filter(|_| gyroflow.is_some());
+        let (time, rate) = match (milliseconds, at("frame"), at("time"), fps) {
+            (Some(time), _, _, Some(fps)) => (time, fps / 1000.0),
+            (None, Some(_), _, Some(_)) => {
                 return Err(self.rate_error("poses are by frame, so that a rate (fps) has no effect; leave it out"));
             }
-            (Some(frame), _, None) => (frame, 1.0),
-            (None, Some(time), Some(fps)) => (time, fps),
-            (None, Some(_), None) => {
+            (_, Some(frame), _, None) => (frame, 1.0),
+            (None, None, Some(time), Some(fps)) => (time, fps),
+            (Some(_), None, _, None) | (None, None, Some(_), None) => {
                 return Err(self.rate_error("poses are by time, so that the rate of frames (fps) is needed; give it"));
             }
-            (None, None, _) => return Err(lacking("frame")),
+            (None, None, None, _) => return Err(lacking("frame")),
         };
+        if let Some(turn) = gyroflow {
+            return Ok(Columns { time, rate, turn: Turn::Gyroflow(turn), fov: None, ignored: Vec::new() });
+        }
         let angles = ANGLES.map(at);
         let quaternion = QUATERNION.map(at);
         let turn = match (angles[0], quaternion.iter().any(Option::is_some)) {

@@ -63,16 +63,15 @@ fn elements<const N: usize>(view: &View, form: &Elements, buffers: &Buffers) -> 
     let bytes = buffers.view(view)?;
     let size = form.kind.size();
     let stride = view.stride().unwrap_or(N * size);
-    let last = form.count.checked_sub(1).and_then(|last| last.checked_mul(stride));
-    let end = last.and_then(|last| last.checked_add(form.offset)?.checked_add(N * size));
-    let Some(last) = last else { return Ok(Vec::new()) };
+    let Some(last) = form.count.checked_sub(1) else { return Ok(Vec::new()) };
+    let end = last.checked_mul(stride).and_then(|last| last.checked_add(form.offset)?.checked_add(N * size));
     if end.is_none_or(|end| end > bytes.len()) {
         let (count, length) = (form.count, bytes.len());
         return Err(format!("has {count} elements, which end outside its view of {length} bytes"));
     }
     let number = |start: usize| scalar(&bytes[start..start + size], form);
     let element = |start: usize| std::array::from_fn(|k| number(form.offset + start + k * size));
-    Ok((0..form.count).map(|k| element(if last == 0 { 0 } else { k * stride })).collect())
+    Ok((0..form.count).map(|k| element(k * stride)).collect())
 }
 
 fn scalar(bytes: &[u8], form: &Elements) -> f64 {

@@ -1,10 +1,13 @@
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 use data_url::DataUrl;
 use gltf::Document;
 use gltf::buffer::{Buffer, Source, View};
+use percent_encoding::percent_decode_str;
 
-use crate::model::ModelFault;
+use crate::model::{Model, ModelFault};
 
 /// The bytes of all buffers of a file.
 pub(super) struct Buffers {
@@ -21,13 +24,17 @@ impl Buffers {
         folder: &Path,
         most: usize,
     ) -> Result<Self, ModelFault> {
+        let largest = most.saturating_mul(Model::TRIANGLE_BYTES);
         let read = |buffer: Buffer| {
             let fault = |why: String| ModelFault::Piece { piece: format!("buffer {}", buffer.index()), why };
+            if buffer.length() > largest {
+                return Err(fault(format!("has {} bytes; memory allows {largest}", buffer.length())));
+            }
             let data = match buffer.source() {
                 Source::Bin => {
                     blob.take().ok_or_else(|| fault("is missing: the file has no binary part".to_owned()))?
                 }
-                Source::Uri(uri) => bytes_of(uri, folder).map_err(fault)?,
+                Source::Uri(uri) => bytes_of(uri, folder, buffer.length()).map_err(fault)?,
             };
             let (found, expected) = (data.len(), buffer.length());
             if found < expected {
@@ -53,8 +60,8 @@ impl Buffers {
     }
 }
 
-/// Returns the bytes that a URI stands for: its own, or those of a file.
-pub(super) fn bytes_of(uri: &str, folder: &Path) -> Result<Vec<u8>, String> {
+/// Returns the bytes that a URI stands for: its own, or the first of a file.
+fn bytes_of(uri: &str, folder: &Path, most: usize) -> Result<Vec<u8>, String> {
     if uri.starts_with("data:") {
         let wrong = || "is a data URI that cannot be decoded".to_owned();
         return DataUrl::process(uri).map_err(|_| wrong())?.decode_to_vec().map(|(data, _)| data).map_err(|_| wrong());
@@ -62,18 +69,8 @@ pub(super) fn bytes_of(uri: &str, folder: &Path) -> Result<Vec<u8>, String> {
     if uri.contains("://") {
         return Err(format!("is at '{uri}'; expected a file beside the model's, since nothing is fetched"));
     }
-    let path = folder.join(decoded(uri));
-    std::fs::read(&path).map_err(|error| format!("cannot be read: {}: {error}", path.display()))
-}
-
-/// Returns a text in which `%20` and its like are the characters that they stand for.
-fn decoded(uri: &str) -> String {
-    let (mut bytes, mut rest) = (Vec::new(), uri.as_bytes());
-    while let [first, others @ ..] = rest {
-        let code = others.get(..2).and_then(|code| std::str::from_utf8(code).ok());
-        let byte = code.filter(|_| *first == b'%').and_then(|code| u8::from_str_radix(code, 16).ok());
-        bytes.push(byte.unwrap_or(*first));
-        rest = if byte.is_some() { &others[2..] } else { others };
-    }
-    String::from_utf8_lossy(&bytes).into_owned()
+    let path = folder.join(&*percent_decode_str(uri).decode_utf8_lossy());
+    let mut bytes = Vec::new();
+    let read = File::open(&path).and_then(|file| file.take(most as u64).read_to_end(&mut bytes));
+    read.map(|_| bytes).map_err(|error| format!("cannot be read: {}: {error}", path.display()))
 }

@@ -20,4 +20,5 @@ pub(super) fn has_pictures(material: &gltf::Material) -> bool {
         || pbr.metallic_roughness_texture().is_some()
         || material.normal_texture().is_some()
         || material.emissive_texture().is_some()
+        || material.occlusion_texture().is_some()
 }

@@ -11,7 +11,7 @@ use std::path::Path;
 use cosmorama::sphere::Angle;
 use glam::{DMat4, DVec4};
 use gltf::mesh::Mode;
-use gltf::{Document, Gltf, Node};
+use gltf::{Document, Gltf, Node, Semantic};
 
 use self::buffers::Buffers;
 use super::{Contents, ModelFault};
@@ -61,8 +61,23 @@ pub(super) fn read(path: &Path, most: usize) -> Result<Contents, ModelFault> {
 
 /// Checks that all that the file's pieces name is there. Rules of other formats of vertices are not those of quantised ones.
 fn check(document: &Document) -> Result<(), ModelFault> {
+    use gltf::json::camera::Type;
+    use gltf::json::validation::Checked::Valid;
     use gltf::json::validation::{Error, Validate};
     let json = document.as_json();
+    // Two rules that the crate's own checks take for granted, or leave out.
+    let attributes = json.meshes.iter().flat_map(|mesh| &mesh.primitives).flat_map(|part| part.attributes.values());
+    if attributes.clone().any(|index| index.value() >= json.accessors.len()) {
+        return Err(ModelFault::Format("a primitive names an accessor that is not there".to_owned()));
+    }
+    if let Some(index) = json.cameras.iter().position(|camera| match camera.type_ {
+        Valid(Type::Perspective) => camera.perspective.is_none(),
+        Valid(Type::Orthographic) => camera.orthographic.is_none(),
+        _ => true,
+    }) {
+        let why = "does not have the numbers of its type".to_owned();
+        return Err(ModelFault::Piece { piece: format!("camera {index}"), why });
+    }
     let mut faults = Vec::new();
     json.validate(json, gltf::json::Path::new, &mut |path, error| {
         if error != Error::Unsupported {
@@ -98,7 +113,7 @@ fn nodes(document: &Document) -> Result<Vec<(Node<'_>, DMat4)>, ModelFault> {
 /// Returns the number of triangles of a node.
 fn triangles(node: &Node) -> usize {
     let count = |primitive: gltf::Primitive| {
-        let positions = primitive.get(&gltf::Semantic::Positions).map_or(0, |accessor| accessor.count());
+        let positions = primitive.get(&Semantic::Positions).map_or(0, |accessor| accessor.count());
         let corners = primitive.indices().map_or(positions, |accessor| accessor.count());
         match primitive.mode() {
             Mode::Triangles => corners / 3,
@@ -123,6 +138,9 @@ fn notes(document: &Document) -> Vec<String> {
         (document.materials().any(|material| material::has_pictures(&material)), "pictures of materials are not read"),
         (primitives().any(is_clear), "transparency of materials is not shown"),
         (primitives().any(|primitive| primitive.morph_targets().len() > 0), "morph targets are not applied"),
+        (primitives().any(|part| part.get(&Semantic::Colors(0)).is_some()), "colours of vertices are not applied"),
     ];
-    all.into_iter().filter(|(is_there, _)| *is_there).map(|(_, note)| note.to_owned()).collect()
+    let unread = document.extensions_used().filter(|extension| !SUPPORTED.contains(extension));
+    let unread = unread.map(|extension| format!("{extension} is not applied"));
+    all.into_iter().filter(|(is_there, _)| *is_there).map(|(_, note)| note.to_owned()).chain(unread).collect()
 }

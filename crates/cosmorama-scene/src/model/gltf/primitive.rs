@@ -25,7 +25,8 @@ pub(super) fn faces(
     let tangents = tangents.map(|tangents| {
         mapped(tangents, |[x, y, z, w]: [f64; 4]| (turn * DVec3::new(x, y, z)).normalize_or_zero().extend(w * side))
     });
-    let uvs = attribute(primitive, &Semantic::TexCoords(texture_set(primitive)), buffers)?;
+    // The first set: pictures of a scene file go by it, and those of the file are not read.
+    let uvs = attribute(primitive, &Semantic::TexCoords(0), buffers)?;
     let uvs = uvs.map(|uvs| mapped(uvs, DVec2::from_array));
     for (name, count) in [
         ("normals", normals.as_ref().map(Vec::len)),
@@ -53,13 +54,6 @@ pub(super) fn faces(
         }
     };
     Ok(triangles(primitive.mode(), &corners).into_iter().map(face).collect())
-}
-
-/// Returns the set of texture coordinates that the material asks for.
-fn texture_set(primitive: &Primitive) -> u32 {
-    let material = primitive.material();
-    let base = material.pbr_metallic_roughness().base_color_texture();
-    base.map(|info| info.tex_coord()).or(material.normal_texture().map(|normal| normal.tex_coord())).unwrap_or(0)
 }
 
 fn attribute<const N: usize>(

@@ -17,7 +17,7 @@ pub struct Face {
     pub normals: Option<[DVec3; 3]>,
     /// Texture coordinates at the corners.
     pub uvs: Option<[DVec2; 3]>,
-    /// Tangents at the corners, along u; w is 1 or −1, the side of v.
+    /// Tangents at the corners, along u; w is 1 or −1, the side of the bitangent, which points against v.
     pub tangents: Option<[DVec4; 3]>,
     /// Index of the part of the object.
     pub part: usize,

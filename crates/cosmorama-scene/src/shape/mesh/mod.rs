@@ -11,7 +11,7 @@ use glam::DVec3;
 use self::map::{Map, Place};
 use self::rim::Rims;
 use self::tree::Tree;
-use super::{Hit, Solid, Sphere, Wall};
+use super::{Chart, Hit, Solid, Sphere, Wall};
 use crate::ray::Ray;
 
 pub use build::{Face, MeshError, Normals};
@@ -53,6 +53,11 @@ impl Mesh {
     /// Returns the number of triangles without area, which were left out.
     pub fn skipped(&self) -> usize {
         self.skipped
+    }
+
+    /// Returns the greatest number of a part that a triangle names.
+    pub(crate) fn last_part(&self) -> usize {
+        self.skins.iter().map(|skin| skin.part as usize).max().unwrap_or_default()
     }
 
     /// Returns a ball around all of it.
@@ -111,7 +116,8 @@ impl Mesh {
         let skin = &self.skins[hit.face];
         let normal = place.normal(&skin.normals);
         let chart = self.maps.get(hit.face).and_then(Option::as_ref).map(|map| map.chart(&place, sides, normal.unit));
-        let normal = if normal.unit.dot(outward) < 0.0 { normal.reversed() } else { normal };
+        let is_behind = normal.unit.dot(outward) < 0.0;
+        let (normal, chart) = if is_behind { (normal.reversed(), chart.map(Chart::reversed)) } else { (normal, chart) };
         Wall { met, normal, distance: hit.distance, part: skin.part as usize, chart }
     }
 }

@@ -1,6 +1,9 @@
 use std::fmt::{Display, Formatter};
 
+use glam::{DMat2, DVec2, DVec3};
+
 use crate::camera::View;
+use crate::filter::semi_axes;
 use crate::sphere::DirectionJacobian;
 
 /// Error of a distant world for a camera that does not only turn: what is near would shift before what is far.
@@ -32,7 +35,7 @@ impl Parallax {
     /// shows something.
     pub fn of(frames: &[Vec<View>], travel: f64, nearest: f64) -> Option<Self> {
         let is_between = travel >= 0.0 && travel < nearest && nearest.is_finite();
-        let finest = frames.iter().flatten().map(pixels_per_radian).fold(0.0, f64::max);
+        let finest = frames.iter().flatten().map(finest_pixels_per_radian).fold(0.0, f64::max);
         (is_between && finest > 0.0).then(|| {
             let angle = (travel / nearest).asin();
             Self {
@@ -47,15 +50,15 @@ impl Parallax {
 }
 
 /// Returns the pixels in a radian where a view has most, along the direction in which they are smallest.
-fn pixels_per_radian(view: &View) -> f64 {
+fn finest_pixels_per_radian(view: &View) -> f64 {
     let at = |size: usize, k: usize| (size.saturating_sub(1) * k / (POINTS - 1)).min(size.saturating_sub(1));
     let points = (0..POINTS * POINTS).map(|k| (at(view.width(), k % POINTS), at(view.height(), k / POINTS)));
     let footprints = points.filter_map(|(i, j)| view.centre_footprint(i, j));
     let smallest = footprints.map(|footprint| {
         let DirectionJacobian { dx, dy } = footprint.jacobian;
-        // Singular values: the greater by JᵀJ, the lesser by the area.
-        let (a, b, c) = (dx.length_squared(), dx.dot(dy), dy.length_squared());
-        footprint.jacobian.solid_angle() / ((a + c) / 2.0 + ((a - c) / 2.0).hypot(b)).sqrt()
+        let (right, up) = footprint.direction.vector().any_orthonormal_pair();
+        let within = |tangent: DVec3| DVec2::new(tangent.dot(right), tangent.dot(up));
+        semi_axes(DMat2::from_cols(within(dx), within(dy)))[1]
     });
     smallest.filter(|side| *side > 0.0).map(f64::recip).fold(0.0, f64::max)
 }

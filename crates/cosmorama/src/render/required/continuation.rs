@@ -1,4 +1,4 @@
-//! What stands beyond the edge of a world: its light mirrored there, or stretched.
+//! Continuation of a world beyond its edge: mirrored or stretched.
 
 use std::f64::consts::TAU;
 

@@ -126,6 +126,7 @@ fn odd_footprints() -> Vec<Footprint> {
             [
                 Footprint::point(at),
                 tangent(right * 0.01, at),
+                Footprint::new(at, right * 0.01 + up * 0.02, right * -0.02 - up * 0.04),
                 tangent(up * 1e-12, at),
                 Footprint::new(at, right * 100.0, up * 1e9),
                 Footprint::new(at, right * 1e-9, up * 3.0),

@@ -5,6 +5,7 @@ use data_url::DataUrl;
 use gltf::Accessor;
 use gltf::accessor::DataType;
 use gltf::buffer::Source;
+use percent_encoding::percent_decode_str;
 
 use super::wrong;
 use crate::sequence::camera_path::CameraPathError;
@@ -57,7 +58,14 @@ impl Buffers<'_> {
             let bytes = inside.decode_to_vec().map(|(bytes, _)| bytes);
             return bytes.map_err(|error| wrong(self.name, format!("a buffer inside of it is damaged ({error:?})")));
         }
-        let path = self.name.parent().unwrap_or(Path::new("")).join(uri);
+        if uri.contains("://") {
+            return Err(wrong(
+                self.name,
+                format!("its buffer is at '{uri}'; expected a file beside it: nothing is fetched"),
+            ));
+        }
+        let file = percent_decode_str(uri).decode_utf8_lossy();
+        let path = self.name.parent().unwrap_or(Path::new("")).join(&*file);
         (self.beside)(&path)
             .map_err(|error| wrong(self.name, format!("cannot open its buffer {} ({error})", path.display())))
     }

@@ -35,8 +35,10 @@ pub(super) fn is_named(name: &Path) -> bool {
 /// reads them panics.
 fn has_known_animations(document: &gltf::Document) -> bool {
     use gltf::json::validation::Checked::Valid;
-    document.as_json().animations.iter().all(|animation| {
-        animation.channels.iter().all(|channel| matches!(channel.target.path, Valid(_)))
+    let json = document.as_json();
+    json.animations.iter().all(|animation| {
+        let mut targets = animation.channels.iter().map(|channel| &channel.target);
+        targets.all(|target| matches!(target.path, Valid(_)) && target.node.value() < json.nodes.len())
             && animation.samplers.iter().all(|sampler| matches!(sampler.interpolation, Valid(_)))
     })
 }
@@ -56,15 +58,15 @@ pub(super) fn path(bytes: &[u8], source: &PathSource) -> Result<CameraPath, Came
     let scene = Scene::new(&document);
     let node = scene.choose(source)?;
     let chain = scene.chain(node);
-    let Some(animation) = scene.animation(node) else {
+    if !scene.is_turned(node) {
         let reason = format!(
             "nothing turns {}; turn it with yaw, pitch and roll, or name a node that an animation turns",
             scene.name_of(node)
         );
         return Err(wrong(name, reason));
-    };
+    }
     let buffers = Buffers { name, blob: blob.as_deref(), beside: source.beside };
-    let spins = chain.iter().map(|node| Spin::of(&scene.node(*node), &animation, &buffers));
+    let spins = chain.iter().map(|node| Spin::of(&scene.node(*node), scene.animations(), &buffers));
     let spins: Vec<Spin> = spins.collect::<Result<_, _>>()?;
     let frames = frames(&spins, fps).ok_or_else(|| {
         wrong(
@@ -76,9 +78,7 @@ pub(super) fn path(bytes: &[u8], source: &PathSource) -> Result<CameraPath, Came
         let orientation = spins.iter().fold(Orientation::IDENTITY, |outer, spin| spin.at(frame / fps).within(outer));
         PathPose { frame, orientation, fov: None }
     };
-    let goes = animation.channels().any(|channel| {
-        channel.target().property() == Property::Translation && chain.contains(&channel.target().node().index())
-    });
+    let goes = scene.is_animated(node, Property::Translation);
     let remark = || {
         format!(
             "{} also goes from place to place, which a picture of a world does not show; explain tells how much that matters",
@@ -196,6 +196,11 @@ mod tests {
             let found = read(bytes, fps, node).unwrap_err();
             assert!(found.contains(words), "{found}");
         }
+        let key = b"\"node\":1";
+        let at = whole.windows(key.len()).position(|bytes| bytes == key).unwrap();
+        let lost = [&whole[..at], b"\"node\":9", &whole[at + key.len()..]].concat();
+        let found = read(&lost, Some(24.0), None).unwrap_err();
+        assert!(found.contains("an animation of what there is not"), "{found}");
         // Whatever is damaged, nothing panics.
         for at in 0..whole.len() {
             let mut damaged = whole.clone();

@@ -39,16 +39,21 @@ impl<'a> Scene<'a> {
         chain
     }
 
-    /// Returns the first animation that turns a node, or what it hangs on.
-    pub(super) fn animation(&self, node: usize) -> Option<Animation<'a>> {
+    /// Returns all animations: some programs write one for each node.
+    pub(super) fn animations(&self) -> &[Animation<'a>] {
+        &self.animations
+    }
+
+    /// Returns whether an animation turns a node, or what it hangs on.
+    pub(super) fn is_turned(&self, node: usize) -> bool {
+        self.is_animated(node, Property::Rotation)
+    }
+
+    /// Returns whether an animation changes a property of a node, or of what it hangs on.
+    pub(super) fn is_animated(&self, node: usize, property: Property) -> bool {
         let chain = self.chain(node);
-        let turns = |animation: &&Animation| {
-            animation.channels().any(|channel| {
-                let target = channel.target();
-                target.property() == Property::Rotation && chain.contains(&target.node().index())
-            })
-        };
-        self.animations.iter().find(turns).cloned()
+        let mut targets = self.animations.iter().flat_map(Animation::channels).map(|channel| channel.target());
+        targets.any(|target| target.property() == property && chain.contains(&target.node().index()))
     }
 
     /// Returns the node's own name, its camera's, or its number.
@@ -70,7 +75,7 @@ impl<'a> Scene<'a> {
                 wrong(source.name, format!("no camera or node {wanted}; there are {}", self.listed(&all)))
             });
         }
-        let turning: Vec<usize> = cameras.iter().copied().filter(|camera| self.animation(*camera).is_some()).collect();
+        let turning: Vec<usize> = cameras.iter().copied().filter(|camera| self.is_turned(*camera)).collect();
         match (&cameras[..], &turning[..]) {
             (&[only], _) | (_, &[only]) => Ok(only),
             ([], _) => {

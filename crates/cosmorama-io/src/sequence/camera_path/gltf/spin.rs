@@ -20,12 +20,12 @@ pub(super) enum Spin {
 }
 
 impl Spin {
-    /// Reads the turns of a node in an animation.
-    pub(super) fn of(node: &Node, animation: &Animation, buffers: &Buffers) -> Result<Self, CameraPathError> {
+    /// Reads the turns of a node in the first animation that turns it.
+    pub(super) fn of(node: &Node, animations: &[Animation], buffers: &Buffers) -> Result<Self, CameraPathError> {
         let is_its = |channel: &gltf::animation::Channel| {
             channel.target().property() == Property::Rotation && channel.target().node().index() == node.index()
         };
-        let Some(channel) = animation.channels().find(is_its) else {
+        let Some(channel) = animations.iter().flat_map(Animation::channels).find(is_its) else {
             let (_, rotation, _) = node.transform().decomposed();
             return Ok(Self::Still(orientation(rotation.map(f64::from)).unwrap_or(Orientation::IDENTITY)));
         };
