@@ -265,6 +265,11 @@ pub enum LightNormalisation {
 }
 
 impl LightSettings {
+    /// Returns whether the light is scaled to fit the output's sample type.
+    pub(crate) fn fits(&self) -> bool {
+        self.scale == LightScale::Fitting
+    }
+
     /// Returns the settings of a single map under a lobe.
     pub fn map(lobe: Lobe, normalisation: LightNormalisation) -> Self {
         let levels = vec![LightLevel::Lobe(lobe)];

@@ -48,6 +48,11 @@ fn prepare_output(path: &Path, args: OutputArgs, console: &Console) -> Result<Op
     if !args.overwrite {
         refuse_existing([path].into_iter())?;
     }
+    make_parent(path, args, console)
+}
+
+/// Makes the folder of an output, unless that is to exist. It is removed with the returned value if it stays empty.
+fn make_parent(path: &Path, args: OutputArgs, console: &Console) -> Result<Option<NewFolders>> {
     let folder = path.parent().filter(|folder| !args.no_mkdir && !folder.as_os_str().is_empty());
     folder.map(|folder| make_folder(folder, console)).transpose()
 }

@@ -17,7 +17,7 @@ use crate::engine::{
 };
 use crate::job::options::write_options;
 use crate::job::{Content, ConvertJob, FrameOutputs};
-use crate::settings::LightScale;
+use crate::settings::LightSettings;
 
 impl Checked {
     /// Makes the outputs. Each appears whole or not at all.
@@ -103,7 +103,7 @@ impl Checked {
 
 /// Returns the warning about light that was scaled to fit the output's sample type.
 fn fitted(job: &ConvertJob, output: &str, scale: f64) -> Option<Diagnostic> {
-    let is_asked = job.lighting.as_ref().is_some_and(|light| light.scale == LightScale::Fitting);
+    let is_asked = job.lighting.as_ref().is_some_and(LightSettings::fits);
     (is_asked && scale != 1.0).then(|| {
         let message = format!(
             "{output}: the light is written times {scale}, so that all of it fits {DEPTH} {}; times {} it is what it was (lightScale in \

@@ -28,9 +28,6 @@ impl Levels {
     }
 }
 
-/// Largest half float.
-const LARGEST_HALF: f32 = 65504.0;
-
 /// Writer of pictures that share one kind of samples.
 pub(crate) struct Writer {
     /// Conversion of light before it is encoded.
@@ -103,7 +100,7 @@ impl Writer {
             }
             if self.is_half {
                 let colours = image.pixels().iter().flat_map(|pixel| &pixel.0[..3]);
-                let brighter = colours.filter(|sample| sample.abs() > LARGEST_HALF).count();
+                let brighter = colours.filter(|sample| sample.abs() > Depth::Half.most()).count();
                 self.overflowed.fetch_add(brighter, Ordering::Relaxed);
             }
             let encoded = self.encoder.encode_in(&image, threads, pool);

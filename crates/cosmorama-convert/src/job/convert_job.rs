@@ -24,7 +24,7 @@ use crate::input::Input;
 use crate::input::spec_files::st_map::settled;
 use crate::job::Outputs;
 use crate::job::coverage::{Coverage, whole_worlds};
-use crate::settings::{BlurMethod, Conversion, GeometrySettings, LightScale, LightSettings};
+use crate::settings::{BlurMethod, Conversion, GeometrySettings, LightSettings};
 use crate::source::{Access, ChosenFiles, DecodedPicture, Files, MemoryBudget};
 use crate::target::{Movement, Target, TargetView, name_of_level, of_light, shape_warning, time, whole_chain};
 
@@ -216,7 +216,7 @@ impl ConvertJob {
             Purpose::Light => Outputs::none(&input),
         };
         warnings.extend(outputs.warning());
-        if outputs.frames.len() > 1 && lighting.as_ref().is_some_and(|light| light.scale == LightScale::Fitting) {
+        if outputs.frames.len() > 1 && lighting.as_ref().is_some_and(LightSettings::fits) {
             return Err(usage(format!(
                 "{SCALE} auto would scale each of {} frames by its own factor; give one for all, as in {SCALE} 0.25",
                 outputs.frames.len()

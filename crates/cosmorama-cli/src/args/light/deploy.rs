@@ -6,7 +6,6 @@ use cosmorama_convert::Conversion;
 use cosmorama_spec::Missing;
 
 use super::world::WorldArgs;
-use crate::args::convert::OutputArgs;
 use crate::args::{ProgressStyle, with_examples};
 
 /// Commands that the help of `light deploy` shows.
@@ -44,14 +43,9 @@ pub(crate) struct DeployArgs {
     pub(crate) missing: Missing,
     #[command(flatten)]
     pub(crate) world: WorldArgs,
-    #[command(flatten, next_help_heading = "Frames and files")]
-    pub(crate) file: OutputArgs,
     /// How to tell what is going on, on standard error
     #[arg(long, value_enum, value_name = "STYLE", default_value_t = ProgressStyle::Auto, hide_short_help = true, help_heading = "Run")]
     pub(crate) progress: ProgressStyle,
-    /// Print a machine-readable report on standard output
-    #[arg(long, help_heading = "Run")]
-    pub(crate) json: bool,
 }
 
 /// Name of an engine.

@@ -8,7 +8,6 @@ use cosmorama_convert::Conversion;
 use cosmorama_spec::Missing;
 
 use super::world::WorldArgs;
-use crate::args::convert::OutputArgs;
 use crate::args::with_examples;
 
 /// Commands that the help of `light harmonics` shows.
@@ -55,11 +54,6 @@ pub(crate) struct HarmonicsArgs {
     pub(crate) missing: Missing,
     #[command(flatten)]
     pub(crate) world: WorldArgs,
-    #[command(flatten, next_help_heading = "Frames and files")]
-    pub(crate) file: OutputArgs,
-    /// Print a machine-readable report on standard output
-    #[arg(long, help_heading = "Run")]
-    pub(crate) json: bool,
 }
 
 /// What coefficients are of.
@@ -100,14 +94,8 @@ impl From<Kind> for HarmonicKind {
 impl Basis {
     /// Returns its name.
     pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Zup => "zup",
-            Self::Yup => "yup",
-            Self::Filament => "filament",
-            Self::Three => "three",
-            Self::Unity => "unity",
-            Self::Godot => "godot",
-        }
+        let axes = if self == Self::Zup { "zup" } else { "yup" };
+        self.preset().map_or(axes, HarmonicPreset::name)
     }
 
     /// Returns the program whose form it is, if it is one's.

@@ -105,7 +105,9 @@ fn scale(text: &str) -> Result<LightScale, String> {
     if text == "auto" {
         return Ok(LightScale::Fitting);
     }
-    let factor = text.parse().ok().filter(|factor: &f64| factor.is_finite() && *factor > 0.0);
+    // Light is of single precision.
+    let is_scale = |factor: &f64| *factor > 0.0 && (*factor as f32).is_normal();
+    let factor = text.parse().ok().filter(is_scale);
     factor.map(LightScale::Factor).ok_or_else(|| "expected auto, or a factor more than 0, as in 0.25".to_owned())
 }
 

@@ -6,7 +6,6 @@ use cosmorama_convert::Conversion;
 use cosmorama_spec::Missing;
 
 use super::world::WorldArgs;
-use crate::args::convert::OutputArgs;
 use crate::args::with_examples;
 
 /// Commands that the help of `light sun` shows.
@@ -32,11 +31,6 @@ pub(crate) struct SunArgs {
     pub(crate) remove: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) world: WorldArgs,
-    #[command(flatten, next_help_heading = "Frames and files")]
-    pub(crate) file: OutputArgs,
-    /// Print a machine-readable report on standard output
-    #[arg(long, help_heading = "Run")]
-    pub(crate) json: bool,
 }
 
 impl From<SunArgs> for Conversion {

@@ -8,7 +8,6 @@ use cosmorama_convert::Conversion;
 use cosmorama_spec::{DepthName, Missing};
 
 use super::world::WorldArgs;
-use crate::args::convert::OutputArgs;
 use crate::args::parse::listed;
 use crate::args::parse::number::degrees;
 use crate::args::with_examples;
@@ -57,11 +56,6 @@ pub(crate) struct TableArgs {
     pub(crate) depth: Option<DepthName>,
     #[command(flatten)]
     pub(crate) world: WorldArgs,
-    #[command(flatten, next_help_heading = "Frames and files")]
-    pub(crate) file: OutputArgs,
-    /// Print a machine-readable report on standard output
-    #[arg(long, help_heading = "Run")]
-    pub(crate) json: bool,
 }
 
 /// Angle of a table.

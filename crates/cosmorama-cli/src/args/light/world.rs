@@ -3,10 +3,10 @@ use cosmorama_convert::{Conversion, GeometrySettings};
 use cosmorama_io::FrameList;
 use cosmorama_spec::{Missing, Spec, TransferName};
 
-use crate::args::convert::{LimitArgs, frame_list};
+use crate::args::convert::{LimitArgs, OutputArgs, frame_list};
 use crate::args::parse::listed;
 
-/// What is to be known of a world whose light is wanted, and not a picture of it.
+/// Description of a world whose light is wanted, and of what becomes of it.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct WorldArgs {
     /// The input's projection [default: found]
@@ -18,8 +18,13 @@ pub(crate) struct WorldArgs {
     /// Which frame of several
     #[arg(long, value_name = "N", value_parser = frame_list, allow_hyphen_values = true, help_heading = "Frames and files")]
     pub(crate) frames: Option<FrameList>,
+    #[command(flatten, next_help_heading = "Frames and files")]
+    pub(crate) file: OutputArgs,
     #[command(flatten)]
     pub(crate) limits: LimitArgs,
+    /// Print a machine-readable report on standard output
+    #[arg(long, help_heading = "Run")]
+    pub(crate) json: bool,
 }
 
 impl WorldArgs {

@@ -27,7 +27,7 @@ pub(super) fn run(mut args: HarmonicsArgs, console: &mut Console) -> Result<Exit
     console.tell_all(&checked);
     let light = checked.result?;
     check_apart(&path, light.files())?;
-    let _folders = prepare_output(&path, args.file, console)?;
+    let _folders = prepare_output(&path, args.world.file, console)?;
     // Fails before the work, not after it, if the folder cannot be written to.
     let mut file = Pending::create(&path, &console.unfinished)?;
     let window = args.window.map(|window| window.window(args.order));
@@ -40,7 +40,7 @@ pub(super) fn run(mut args: HarmonicsArgs, console: &mut Console) -> Result<Exit
     let text = form.text(&stored, (args.basis.name(), kind))?;
     file.writer().write_all(text.as_bytes()).with_context(|| format!("cannot write {}", path.display()))?;
     file.finish()?;
-    if args.json {
+    if args.world.json {
         console.print(&report(&args, &found, kind)?)?;
     } else {
         tell(&path, &found, (args.order, kind));

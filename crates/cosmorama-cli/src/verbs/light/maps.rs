@@ -89,12 +89,8 @@ fn chain(args: &SpecularArgs, levels: usize) -> Result<Vec<LightLevel>> {
     levels_by(args.lobe, map, (levels, edge))
 }
 
-/// Returns the levels of a chain of GGX lobes by a rule.
-pub(super) fn levels_of(map: RoughnessMap, levels: usize, edge: usize) -> Result<Vec<LightLevel>> {
-    levels_by(LobeName::Ggx, map, (levels, edge))
-}
-
-fn levels_by(lobe: LobeName, map: RoughnessMap, (levels, edge): (usize, usize)) -> Result<Vec<LightLevel>> {
+/// Returns the levels of a chain of lobes by a rule.
+pub(super) fn levels_by(lobe: LobeName, map: RoughnessMap, (levels, edge): (usize, usize)) -> Result<Vec<LightLevel>> {
     let alpha = |level: usize| map.alpha(ChainLevel { level, levels, edge });
     // A roughness below that of any lobe makes a mirror.
     (0..levels).map(|at| level(lobe, if alpha(at) < SMOOTHEST { 0.0 } else { alpha(at) })).collect()

@@ -33,13 +33,13 @@ pub(super) fn run(mut args: SunArgs, console: &mut Console) -> Result<ExitCode> 
     let frames = frames(&args)?;
     if let (Some(path), Some(_)) = (&args.remove, frames[0]) {
         let outputs: Vec<PathBuf> = frames.iter().map(|frame| output(path, *frame)).collect();
-        if !args.file.overwrite {
+        if !args.world.file.overwrite {
             refuse_existing(outputs.iter().map(PathBuf::as_path))?;
         }
     }
     let find = |frame: &Option<u64>| find(&args, *frame, &files, console);
     let found: Vec<Found> = frames.iter().map(find).collect::<Result<_>>()?;
-    console.print(&if args.json { to_json(&found)? } else { told(&found)? })?;
+    console.print(&if args.world.json { to_json(&found)? } else { told(&found)? })?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -81,7 +81,7 @@ fn find(args: &SunArgs, frame: Option<u64>, files: &Arc<dyn Files>, console: &Co
         light.check_picture(path)?;
         check_apart(path, light.files())?;
     }
-    let _folders = output.as_deref().map(|path| prepare_output(path, args.file, console)).transpose()?;
+    let _folders = output.as_deref().map(|path| prepare_output(path, args.world.file, console)).transpose()?;
     let (suns, diagnostics) = light.suns(output.as_deref())?;
     diagnostics.iter().for_each(|diagnostic| console.warn(diagnostic));
     Ok(Found { frame, output, suns })

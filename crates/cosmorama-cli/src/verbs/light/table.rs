@@ -43,7 +43,7 @@ pub(super) fn run(mut args: TableArgs, console: &mut Console) -> Result<ExitCode
             Source::World(Box::new(light))
         }
     };
-    let _folders = prepare_output(&args.output, args.file, console)?;
+    let _folders = prepare_output(&args.output, args.world.file, console)?;
     let is_world = matches!(source, Source::World(_));
     let table = source.table(&args, console)?;
     let overflowed = match form {
@@ -60,7 +60,7 @@ pub(super) fn run(mut args: TableArgs, console: &mut Console) -> Result<ExitCode
             write_picture(&args, format, &image, console)?
         }
     };
-    if args.json {
+    if args.world.json {
         console.print(&report(&args, &table, overflowed)?)?;
     }
     Ok(ExitCode::SUCCESS)

@@ -1,5 +1,7 @@
 //! Content of channels, by their names and types.
 
+use std::collections::HashMap;
+
 use cosmorama_io::{Metadata, NamedChannel, SampleKind};
 
 /// Channels that are filtered together by one rule.
@@ -55,7 +57,7 @@ pub(super) fn mattes(metadata: &Metadata) -> Vec<String> {
     let names = metadata.carried.attributes.iter().filter(|attribute| {
         attribute.name.starts_with("cryptomatte/") && attribute.name.ends_with("/name") && attribute.kind == "string"
     });
-    names.map(cosmorama_io::Attribute::value).collect()
+    names.map(cosmorama_io::Attribute::value).filter(|name| !name.is_empty()).collect()
 }
 
 /// Sorts channels into groups, in their order. `mattes` are the names of cryptomattes that names alone do not tell.
@@ -63,13 +65,18 @@ pub(crate) fn grouped(channels: &[NamedChannel], mattes: &[String]) -> Vec<Layer
     let mut groups = Vec::new();
     let mut numbers: Vec<NamedChannel> = Vec::new();
     let mut layers: Vec<&str> = Vec::new();
+    let mut members: HashMap<&str, Vec<&NamedChannel>> = HashMap::new();
     for channel in channels {
         let layer = stem(&channel.name, mattes);
-        if !layers.contains(&layer) {
+        let of_layer = members.entry(layer).or_default();
+        if of_layer.is_empty() {
             layers.push(layer);
-            let of_layer = channels.iter().filter(|channel| stem(&channel.name, mattes) == layer).collect();
-            sort((layer, mattes), of_layer, &mut groups, &mut numbers);
         }
+        of_layer.push(channel);
+    }
+    for layer in layers {
+        let of_layer = members.remove(layer).unwrap_or_default();
+        sort((layer, mattes), of_layer, &mut groups, &mut numbers);
     }
     groups.extend(numbers.chunks(AT_ONCE).map(|some| group(some.iter(), LayerContent::Numbers)));
     groups

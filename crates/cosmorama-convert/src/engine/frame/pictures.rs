@@ -20,7 +20,7 @@ use crate::engine::{
 use crate::input::InputView;
 use crate::job::coverage::Coverage;
 use crate::job::{ConvertJob, FrameOutputs, QueueDepth};
-use crate::settings::LightScale;
+use crate::settings::{LightScale, LightSettings};
 use crate::target::{Sheet, Target};
 
 /// Makes the outputs of a job, frame by frame.
@@ -300,7 +300,7 @@ impl<'a> Engine<'a> {
             }
         }
         let scale = maps.scale(&mut made);
-        if self.job.lighting.as_ref().is_some_and(|light| light.scale == LightScale::Fitting) {
+        if self.job.lighting.as_ref().is_some_and(LightSettings::fits) {
             self.writer.say(LightScale::remark(scale));
         }
         let measured: Vec<_> = views.iter().zip(&made).collect();

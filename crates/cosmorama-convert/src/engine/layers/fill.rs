@@ -1,5 +1,5 @@
 use cosmorama::camera::View;
-use cosmorama::raster::{Channels, Rgba};
+use cosmorama::raster::{Channels, Depth, Rgba};
 use cosmorama::sphere::Orientation;
 use cosmorama::world::World;
 use rayon::prelude::*;
@@ -48,9 +48,6 @@ pub(super) fn fill(job: &ConvertJob, content: LayerContent, views: &[ViewPlanes<
     }
 }
 
-/// Largest half, which stands for infinity in light.
-const LARGEST: f32 = 65504.0;
-
 impl Reading<'_> {
     fn fill_row(&self, j: usize, row: &mut [Rgba]) {
         let first = self.planes.row(j);
@@ -58,8 +55,8 @@ impl Reading<'_> {
         match self.content {
             LayerContent::Light | LayerContent::Numbers => {
                 for (i, texel) in row.iter_mut().enumerate() {
-                    let [a, b, c] = [0, 1, 2].map(|channel| tame(number(channel, i)));
-                    *texel = Rgba::opaque(a, b, c);
+                    let [a, b, c] = [0, 1, 2].map(|channel| number(channel, i));
+                    *texel = Rgba::opaque(a, b, c).finite();
                 }
                 if let Some(conversion) = &self.conversion {
                     conversion.convert(row);
@@ -85,17 +82,6 @@ impl Reading<'_> {
     }
 }
 
-/// Returns a number that can be weighed: 0 for NaN, the largest half for infinity, as in pictures.
-fn tame(number: f32) -> f32 {
-    if number.is_nan() {
-        0.0
-    } else if number.is_infinite() {
-        LARGEST.copysign(number)
-    } else {
-        number
-    }
-}
-
 /// Least number by which renderers say that there is nothing: Blender's is 1e10, Arnold's 1e30.
 const NOTHING: f32 = 1e9;
 
@@ -105,7 +91,7 @@ fn distance(number: f32) -> Rgba {
     match number {
         f32::INFINITY => Rgba([0.0, 0.0, 1.0, 1.0]),
         _ if !number.is_finite() => Rgba([0.0, 0.0, 0.0, 1.0]),
-        _ if number >= NOTHING || number == LARGEST => Rgba([0.0, 0.0, number, 1.0]),
+        _ if number >= NOTHING || number == Depth::Half.most() => Rgba([0.0, 0.0, number, 1.0]),
         _ => Rgba([number, 1.0, 0.0, 1.0]),
     }
 }

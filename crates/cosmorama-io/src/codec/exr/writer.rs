@@ -8,6 +8,7 @@ use exr::image::write::samples::WritableSamples;
 use exr::image::{AnyChannel, AnyChannels, Blocks, Encoding, FlatSamples, Image, Layer, Levels};
 use exr::math::{RoundingMode, Vec2};
 use exr::meta::attribute::Text;
+use exr::meta::mip_map_levels;
 use exr::prelude::SmallVec;
 use half::f16;
 
@@ -35,32 +36,38 @@ pub(crate) fn write_levels(
     levels: &[EncodedImage],
     options: &WriteOptions,
 ) -> Result<(), IoError> {
-    let [largest, _, ..] = levels else { return write(path, output, &levels[0], options) };
-    let (width, height) = (largest.width(), largest.height());
-    let count = width.max(height).max(1).ilog2() as usize + 1;
-    if levels.len() != count {
-        return Err(IoError::write(
-            path,
-            format_args!("{} levels, but {width}x{height} pixels have {count}", levels.len()),
-        ));
+    let Some(largest) = levels.first() else { return Err(IoError::write(path, "there is no picture")) };
+    if levels.len() == 1 {
+        return write(path, output, largest, options);
     }
-    let mut all = Planes::new();
-    for (level, image) in levels.iter().enumerate() {
-        let half = |pixels: usize| (pixels >> level).max(1);
-        let is_half = (image.width(), image.height()) == (half(width), half(height));
-        if !is_half || (image.channels(), image.depth()) != (largest.channels(), largest.depth()) {
-            return Err(IoError::write(path, format_args!("level {level} is no half of the level before")));
+    let size = Vec2(largest.width(), largest.height());
+    let sizes = mip_map_levels(RoundingMode::Down, size).map(|(_, size)| size);
+    if !levels.iter().map(|level| Vec2(level.width(), level.height())).eq(sizes) {
+        let count = mip_map_levels(RoundingMode::Down, size).count();
+        let reason = format_args!(
+            "{} levels; {}x{} pixels have {count}, each half of the one before",
+            levels.len(),
+            size.0,
+            size.1
+        );
+        return Err(IoError::write(path, reason));
+    }
+    let form = |level: &EncodedImage| (level.channels(), level.depth());
+    if levels.iter().any(|level| form(level) != form(largest)) {
+        return Err(IoError::write(path, "levels of several channels or depths"));
+    }
+    let mut list: SmallVec<[AnyChannel<Levels<FlatSamples>>; 4]> = SmallVec::new();
+    for image in levels {
+        for (channel, plane) in picture(path, image, &[], options)?.into_iter().enumerate() {
+            if let Some(Levels::Mip { level_data, .. }) = list.get_mut(channel).map(|all| &mut all.sample_data) {
+                level_data.push(plane.sample_data);
+            } else {
+                let level_data = vec![plane.sample_data];
+                list.push(AnyChannel::new(plane.name, Levels::Mip { rounding_mode: RoundingMode::Down, level_data }));
+            }
         }
-        all.extend(picture(path, image, &[], options)?);
     }
-    let channels = largest.channels().count();
-    let channel = |first: usize| {
-        let planes = all.iter().skip(first).step_by(channels);
-        let level_data = planes.map(|plane| plane.sample_data.clone()).collect();
-        AnyChannel::new(all[first].name.clone(), Levels::Mip { rounding_mode: RoundingMode::Down, level_data })
-    };
-    let list = (0..channels).map(channel).collect();
-    save(path, output, ((width, height), Blocks::Tiles(TILE)), list, options).map(drop)
+    save(path, output, ((size.0, size.1), Blocks::Tiles(TILE)), list, options).map(drop)
 }
 
 /// Writes a picture with named channels beside it.
@@ -150,6 +157,11 @@ fn save<S: for<'s> WritableSamples<'s> + 'static>(
     let encoding = Encoding { compression: packing, blocks, ..Encoding::SMALL_LOSSLESS };
     let layer = Layer::new(size, attributes::written(&options.metadata), encoding, AnyChannels::sort(list));
     let mut picture = Image::from_layer(layer);
+    // Sorted by name. The encoder's own check of this is one of those that are left out below.
+    let channels = &picture.layer_data.channel_data.list;
+    if let Some(pair) = channels.windows(2).find(|pair| pair[0].name == pair[1].name) {
+        return Err(IoError::write(path, format_args!("two channels are called {}", pair[0].name)));
+    }
     picture.attributes.chromaticities = options.metadata.primaries.as_ref().map(colour::chromaticities);
     // The encoder's checks refuse standard attributes that it has not made itself.
     let writer = picture.write().skip_compatibility_checks();

@@ -53,7 +53,7 @@ pub(super) fn read(source: Source<'_>) -> io::Result<Found> {
             source.seek_relative(i64::from(length) + 4)?;
         }
         match &kind {
-            b"iCCP" => found.has_profile = !is_behind,
+            b"iCCP" => found.has_profile |= !is_behind,
             b"IDAT" => is_behind = true,
             b"IEND" => break,
             _ => {}

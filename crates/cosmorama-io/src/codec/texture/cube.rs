@@ -1,19 +1,79 @@
 use std::io::SeekFrom;
 use std::path::Path;
 
-use cosmorama::raster::{AlphaMode, Channels, EncodedImage, Primaries, Samples, Transfer};
+use cosmorama::raster::{AlphaMode, Channels, Depth, EncodedImage, FramePool, Primaries, Samples, Transfer};
 use half::f16;
 use rayon::prelude::*;
 
 use super::packing::Packed;
 use super::texel::Texels;
-use crate::codec::interface::{Source, is_beside_others, whole_image};
+use crate::codec::interface::{Codec, Sink, Source, is_beside_others, whole_image};
 use crate::metadata::khronos;
-use crate::{EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata};
+use crate::{EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata, WriteOptions};
 
 /// Supported textures, for messages.
 pub(super) const EXPECTED: &str = "a cube of 8-bit, half or float texels, RGB9E5, R11G11B10, BC1 to BC3, BC6H or BC7, as it is or packed by Zstandard \
      or zlib; textures of BasisLZ and UASTC are unpacked by `ktx transcode`";
+
+/// A format of textures that holds cubes with their mip levels.
+pub(super) trait TextureFormat: Sync {
+    /// Its name.
+    const FORMAT: Format;
+
+    /// Returns whether a file begins so.
+    fn is_start(&self, start: &[u8]) -> bool;
+
+    /// Reads the structure of a file, without its texels.
+    fn texture(&self, path: &Path, source: Source<'_>) -> Result<CubeTexture, IoError>;
+
+    /// Writes six faces with their mip levels.
+    fn write(&self, path: &Path, output: Sink<'_>, cube: WrittenCube, metadata: &Metadata) -> Result<(), IoError>;
+}
+
+/// A cube to write.
+pub(super) struct WrittenCube {
+    /// Samples of each level, the largest first: RGBA, face by face.
+    pub(super) levels: Vec<Vec<u8>>,
+    /// Columns, and rows, of a face in the largest level.
+    pub(super) edge: u32,
+    /// Sample type.
+    pub(super) depth: Depth,
+}
+
+impl<T: TextureFormat> Codec for T {
+    fn recognises(&self, start: &[u8]) -> bool {
+        self.is_start(start)
+    }
+
+    fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
+        Ok(self.texture(path, source)?.header(T::FORMAT))
+    }
+
+    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, _: &FramePool) -> Result<ImageFile, IoError> {
+        self.texture(path, source)?.read(path, T::FORMAT, source, limits)
+    }
+
+    fn encode(
+        &self,
+        path: &Path,
+        output: Sink<'_>,
+        image: &EncodedImage,
+        options: &WriteOptions,
+    ) -> Result<(), IoError> {
+        self.encode_levels(path, output, std::slice::from_ref(image), options)
+    }
+
+    fn encode_levels(
+        &self,
+        path: &Path,
+        output: Sink<'_>,
+        levels: &[EncodedImage],
+        options: &WriteOptions,
+    ) -> Result<(), IoError> {
+        let cube = WrittenCube::new((path, T::FORMAT), levels, &options.metadata)?;
+        self.write(path, output, cube, &options.metadata)
+    }
+}
 
 /// The faces of a cube in a texture file: offsets of the largest pictures of +X −X +Y −Y +Z −Z, and their encoding.
 pub(super) struct CubeTexture {
@@ -146,27 +206,23 @@ fn joined(faces: Vec<Samples>) -> Samples {
     all
 }
 
-/// Returns the samples of six faces to write, and a face's edge in the largest level: RGBA, face by face in each level,
-/// beginning with the largest.
-pub(super) fn levels_to_write(
-    path: &Path,
-    format: Format,
-    levels: &[EncodedImage],
-    metadata: &Metadata,
-) -> Result<(Vec<Vec<u8>>, u32), IoError> {
-    let Some(largest) = levels.first() else { return Err(IoError::write(path, "there is no picture")) };
-    let edge = largest.width();
-    let mut bytes = Vec::new();
-    for (level, image) in levels.iter().enumerate() {
-        let expected = (edge >> level).max(1);
-        let is_level = (image.width(), image.depth()) == (expected, largest.depth());
-        if !is_level || (level > 0 && edge >> level == 0) {
-            return Err(IoError::write(path, format_args!("level {level} is no half of the level before")));
+impl WrittenCube {
+    /// Takes the samples of a cube's levels.
+    fn new((path, format): (&Path, Format), levels: &[EncodedImage], metadata: &Metadata) -> Result<Self, IoError> {
+        let Some(largest) = levels.first() else { return Err(IoError::write(path, "there is no picture")) };
+        let (edge, depth) = (largest.width(), largest.depth());
+        let mut bytes = Vec::new();
+        for (level, image) in levels.iter().enumerate() {
+            let expected = (edge >> level).max(1);
+            let is_level = (image.width(), image.depth()) == (expected, depth);
+            if !is_level || (level > 0 && edge >> level == 0) {
+                return Err(IoError::write(path, format_args!("level {level} is no half of the level before")));
+            }
+            bytes.push(faces_to_write(path, format, image, metadata)?);
         }
-        bytes.push(faces_to_write(path, format, image, metadata)?);
+        let edge = u32::try_from(edge).map_err(|_| IoError::write(path, format_args!("faces of {edge} pixels")))?;
+        Ok(Self { levels: bytes, edge, depth })
     }
-    let edge = u32::try_from(edge).map_err(|_| IoError::write(path, format_args!("faces of {edge} pixels")))?;
-    Ok((bytes, edge))
 }
 
 /// Returns the samples of six faces.

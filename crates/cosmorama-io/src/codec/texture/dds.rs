@@ -1,15 +1,15 @@
 use std::path::Path;
 
-use cosmorama::raster::{AlphaMode, Depth, EncodedImage, FramePool, Transfer};
+use cosmorama::raster::{AlphaMode, Depth, Transfer};
 use ddsfile::{
     AlphaMode as DdsAlpha, Caps, Caps2, D3D10ResourceDimension, D3DFormat, DxgiFormat, FourCC, Header as DdsHeader,
     Header10, MiscFlag,
 };
 
-use super::cube::{CubeTexture, EXPECTED, levels_to_write};
+use super::cube::{CubeTexture, EXPECTED, TextureFormat, WrittenCube};
 use super::texel::{BlockFormat, Texels};
-use crate::codec::interface::{Codec, Sink, Source};
-use crate::{Format, Header, ImageFile, IoError, Limits, WriteOptions};
+use crate::codec::interface::{Sink, Source};
+use crate::{Format, IoError, Metadata};
 
 const FORMAT: Format = Format::Dds;
 
@@ -20,40 +20,21 @@ const CAPS2: usize = 112;
 /// Codec of cube maps in DirectDraw surfaces.
 pub(crate) struct Dds;
 
-impl Codec for Dds {
-    fn recognises(&self, start: &[u8]) -> bool {
+impl TextureFormat for Dds {
+    const FORMAT: Format = FORMAT;
+
+    fn is_start(&self, start: &[u8]) -> bool {
         start.starts_with(MAGIC)
     }
 
-    fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
-        Ok(texture(path, source)?.header(FORMAT))
-    }
-
-    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, _: &FramePool) -> Result<ImageFile, IoError> {
-        texture(path, source)?.read(path, FORMAT, source, limits)
-    }
-
-    fn encode(
-        &self,
-        path: &Path,
-        output: Sink<'_>,
-        image: &EncodedImage,
-        options: &WriteOptions,
-    ) -> Result<(), IoError> {
-        self.encode_levels(path, output, std::slice::from_ref(image), options)
+    fn texture(&self, path: &Path, source: Source<'_>) -> Result<CubeTexture, IoError> {
+        texture(path, source)
     }
 
     /// Writes six faces with their mip levels: RGBA of 8 bits under the old header, which every program reads but which
     /// does not record the transfer function, or premultiplied halves or floats under the header of Direct3D 10.
-    fn encode_levels(
-        &self,
-        path: &Path,
-        output: Sink<'_>,
-        levels: &[EncodedImage],
-        options: &WriteOptions,
-    ) -> Result<(), IoError> {
-        let (faces, edge) = levels_to_write(path, FORMAT, levels, &options.metadata)?;
-        let depth = levels.first().map_or(Depth::Eight, EncodedImage::depth);
+    fn write(&self, path: &Path, output: Sink<'_>, cube: WrittenCube, _: &Metadata) -> Result<(), IoError> {
+        let WrittenCube { levels: faces, edge, depth } = cube;
         let start = start(edge, depth, faces.len() as u32).map_err(|error| IoError::write(path, error))?;
         // Each face is followed by its own smaller copies.
         let face = |face: usize| {

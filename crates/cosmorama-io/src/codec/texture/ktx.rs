@@ -1,12 +1,12 @@
 use std::io::SeekFrom;
 use std::path::Path;
 
-use cosmorama::raster::{AlphaMode, Depth, EncodedImage, FramePool, Transfer};
+use cosmorama::raster::{AlphaMode, Depth, Transfer};
 
-use super::cube::{CubeTexture, EXPECTED, key_values, levels_to_write};
+use super::cube::{CubeTexture, EXPECTED, TextureFormat, WrittenCube, key_values};
 use super::texel::{BlockFormat, Texels};
-use crate::codec::interface::{Codec, Sink, Source};
-use crate::{Format, Header, ImageFile, IoError, Limits, WriteOptions};
+use crate::codec::interface::{Sink, Source};
+use crate::{Format, IoError, Metadata};
 
 const FORMAT: Format = Format::Ktx;
 
@@ -50,46 +50,27 @@ const LITTLE_ENDIAN: u32 = 0x0403_0201;
 /// Codec of cube maps in KTX textures of version 1.
 pub(crate) struct Ktx;
 
-impl Codec for Ktx {
-    fn recognises(&self, start: &[u8]) -> bool {
+impl TextureFormat for Ktx {
+    const FORMAT: Format = FORMAT;
+
+    fn is_start(&self, start: &[u8]) -> bool {
         start.starts_with(&MAGIC[..8])
     }
 
-    fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
-        Ok(texture(path, source)?.header(FORMAT))
-    }
-
-    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, _: &FramePool) -> Result<ImageFile, IoError> {
-        texture(path, source)?.read(path, FORMAT, source, limits)
-    }
-
-    fn encode(
-        &self,
-        path: &Path,
-        output: Sink<'_>,
-        image: &EncodedImage,
-        options: &WriteOptions,
-    ) -> Result<(), IoError> {
-        self.encode_levels(path, output, std::slice::from_ref(image), options)
+    fn texture(&self, path: &Path, source: Source<'_>) -> Result<CubeTexture, IoError> {
+        texture(path, source)
     }
 
     /// Writes six faces with their mip levels: RGBA of 8 bits, sRGB unless the light is linear, halves or floats.
-    fn encode_levels(
-        &self,
-        path: &Path,
-        output: Sink<'_>,
-        levels: &[EncodedImage],
-        options: &WriteOptions,
-    ) -> Result<(), IoError> {
-        let (levels_of_faces, edge) = levels_to_write(path, FORMAT, levels, &options.metadata)?;
-        let depth = levels.first().map_or(Depth::Eight, EncodedImage::depth);
-        let (kind, size, internal) = match (depth, &options.metadata.transfer) {
+    fn write(&self, path: &Path, output: Sink<'_>, cube: WrittenCube, metadata: &Metadata) -> Result<(), IoError> {
+        let WrittenCube { levels, edge, depth } = cube;
+        let (kind, size, internal) = match (depth, &metadata.transfer) {
             (Depth::Half, _) => (gl::HALF_FLOAT, 2, gl::RGBA16F),
             (Depth::Float, _) => (gl::FLOAT, 4, gl::RGBA32F),
             (_, None | Some(Transfer::Srgb)) => (gl::UNSIGNED_BYTE, 1, gl::SRGB8_ALPHA8),
             _ => (gl::UNSIGNED_BYTE, 1, gl::RGBA8),
         };
-        let pairs = key_values(("KTXorientation", "S=r,T=d"), &options.metadata);
+        let pairs = key_values(("KTXorientation", "S=r,T=d"), metadata);
         let numbers: [u32; NUMBERS] = [
             LITTLE_ENDIAN,
             kind,
@@ -109,7 +90,7 @@ impl Codec for Ktx {
         let mut write = |bytes: &[u8]| output.write_all(bytes).map_err(|error| IoError::write(path, error));
         [&MAGIC[..], &numbers, &pairs].into_iter().try_for_each(&mut write)?;
         // Of a cube, a level's size is that of one face.
-        levels_of_faces.iter().try_for_each(|faces| {
+        levels.iter().try_for_each(|faces| {
             write(&(faces.len() as u32 / 6).to_le_bytes())?;
             write(faces)
         })

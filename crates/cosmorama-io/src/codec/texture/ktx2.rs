@@ -1,15 +1,15 @@
 use std::io::SeekFrom;
 use std::path::Path;
 
-use cosmorama::raster::{AlphaMode, Channels, Depth, EncodedImage, FramePool, Samples, Transfer};
+use cosmorama::raster::{AlphaMode, Channels, Depth, EncodedImage, Samples, Transfer};
 use ktx2::{Format as Vk, Header as Ktx2Header, Index, LevelIndex, SupercompressionScheme as Scheme};
 
-use super::cube::{CubeTexture, EXPECTED, key_values, levels_to_write};
+use super::cube::{CubeTexture, EXPECTED, TextureFormat, WrittenCube, key_values};
 use super::packing::{Packed, Packing};
 use super::texel::{BlockFormat, Texels};
-use crate::codec::interface::{Codec, Sink, Source};
+use crate::codec::interface::{Sink, Source};
 use crate::metadata::khronos;
-use crate::{Format, Header, ImageFile, IoError, Limits, Metadata, WriteOptions};
+use crate::{Format, IoError, Metadata, WriteOptions};
 
 const FORMAT: Format = Format::Ktx2;
 
@@ -30,42 +30,22 @@ mod descriptor {
 /// Codec of cube maps in KTX 2 textures.
 pub(crate) struct Ktx2;
 
-impl Codec for Ktx2 {
-    fn recognises(&self, start: &[u8]) -> bool {
+impl TextureFormat for Ktx2 {
+    const FORMAT: Format = FORMAT;
+
+    fn is_start(&self, start: &[u8]) -> bool {
         start.starts_with(&[0xab, b'K', b'T', b'X', b' ', b'2', b'0', 0xbb])
     }
 
-    fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
-        Ok(texture(path, source)?.header(FORMAT))
-    }
-
-    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, _: &FramePool) -> Result<ImageFile, IoError> {
-        texture(path, source)?.read(path, FORMAT, source, limits)
-    }
-
-    fn encode(
-        &self,
-        path: &Path,
-        output: Sink<'_>,
-        image: &EncodedImage,
-        options: &WriteOptions,
-    ) -> Result<(), IoError> {
-        self.encode_levels(path, output, std::slice::from_ref(image), options)
+    fn texture(&self, path: &Path, source: Source<'_>) -> Result<CubeTexture, IoError> {
+        texture(path, source)
     }
 
     /// Writes six faces with their mip levels: RGBA of 8 bits, sRGB unless the light is linear, or premultiplied
     /// halves or floats.
-    fn encode_levels(
-        &self,
-        path: &Path,
-        output: Sink<'_>,
-        levels: &[EncodedImage],
-        options: &WriteOptions,
-    ) -> Result<(), IoError> {
-        let (levels_of_faces, edge) = levels_to_write(path, FORMAT, levels, &options.metadata)?;
-        let depth = levels.first().map_or(Depth::Eight, EncodedImage::depth);
-        let file = Written { width: edge, height: edge, faces: 6, depth, levels: levels_of_faces };
-        file.write(path, output, &options.metadata)
+    fn write(&self, path: &Path, output: Sink<'_>, cube: WrittenCube, metadata: &Metadata) -> Result<(), IoError> {
+        let WrittenCube { levels, edge, depth } = cube;
+        Written { width: edge, height: edge, faces: 6, depth, levels }.write(path, output, metadata)
     }
 }
 

@@ -40,8 +40,6 @@ pub(super) fn read<R: Read + Seek>(decoder: &mut Decoder<R>) -> Found {
     }
     let names = UNREAD.iter().filter(|(tag, _)| own.directory().contains(*tag)).map(|(_, name)| *name);
     found.carried.unread.extend(names);
-    let block = found.bytes(&mut own, IPTC);
-    found.carried.unread.extend(block.map(|(_, block)| iptc::kind(&block)));
     for (pointer, context) in [(Tag::ExifDirectory, Context::Exif), (Tag::GpsDirectory, Context::Gps)] {
         let place = decoder.get_tag(pointer).ok().and_then(|value| value.into_ifd_pointer().ok());
         if let Some(directory) = place.and_then(|place| decoder.read_directory(place).ok()) {
@@ -49,6 +47,12 @@ pub(super) fn read<R: Read + Seek>(decoder: &mut Decoder<R>) -> Found {
         }
     }
     found.carried.exif = Exif::of_fields(&fields);
+    // Last, since all values share a limit: of a larger block, only that it is there is told.
+    let mut own = decoder.image_ifd();
+    if own.directory().contains(IPTC) {
+        let block = found.bytes(&mut own, IPTC);
+        found.carried.unread.push(block.map_or("IPTC", |(_, block)| iptc::kind(&block)));
+    }
     found
 }
 

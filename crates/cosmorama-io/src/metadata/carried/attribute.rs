@@ -106,7 +106,7 @@ impl Attribute {
         let float = |bytes: &[u8]| word(bytes).map_or_else(String::new, |word| f32::from_bits(word).to_string());
         let integer = |bytes: &[u8]| word(bytes).map_or_else(String::new, |word| word.cast_signed().to_string());
         match (&*self.kind, self.bytes.len()) {
-            ("string", _) => text(&self.bytes[..self.bytes.len().min(1024)]),
+            ("string", _) => text(&self.bytes).chars().take(1024).collect(),
             ("int" | "v2i" | "v3i" | "box2i", 4..=16) => numbers(4, &integer),
             ("float" | "v2f" | "v3f" | "m33f" | "m44f" | "box2f" | "chromaticities", 4..=64) => numbers(4, &float),
             ("double", 8) => <[u8; 8]>::try_from(&*self.bytes).map(f64::from_le_bytes).unwrap_or_default().to_string(),

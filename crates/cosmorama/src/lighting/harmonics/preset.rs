@@ -45,6 +45,16 @@ pub enum PresetError {
 }
 
 impl HarmonicPreset {
+    /// Returns its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Filament => "filament",
+            Self::Three => "three",
+            Self::Unity => "unity",
+            Self::Godot => "godot",
+        }
+    }
+
     /// All programs.
     pub const ALL: [Self; 4] = [Self::Filament, Self::Three, Self::Unity, Self::Godot];
 

@@ -2,6 +2,7 @@
 
 mod preset;
 
+use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -18,11 +19,12 @@ use cosmorama_spec::Size;
 use serde_json::{Value, json};
 
 use crate::args::DeployArgs;
+use crate::args::light::lobe::LobeName;
 use crate::console::{Console, say};
 use crate::pipe::KeptStreams;
 use crate::report;
 use crate::verbs::light::{brdf, harmonics, maps};
-use crate::verbs::{convert, make_folder};
+use crate::verbs::{convert, make_parent};
 use preset::{Part, Preset};
 
 /// Columns of a face of the light on matt surfaces.
@@ -50,7 +52,16 @@ pub(super) fn run(mut args: DeployArgs, console: &mut Console) -> Result<ExitCod
         format!("the folder {} cannot be made; choose another, where you may write", args.folder.display())
     })?;
     files.iter().for_each(|(file, _)| console.call(&pending.path().join(file), file));
-    let deployment = Deployment { args: &args, preset, name: &name, world, light, folder: pending.path(), console };
+    let deployment = Deployment {
+        args: &args,
+        preset,
+        name: &name,
+        world,
+        light,
+        folder: pending.path(),
+        console,
+        harmonics: OnceCell::new(),
+    };
     let mut outputs = Vec::new();
     for (file, part) in &files {
         let mut told = deployment.make(file, *part)?;
@@ -58,7 +69,7 @@ pub(super) fn run(mut args: DeployArgs, console: &mut Console) -> Result<ExitCod
         outputs.push(told);
     }
     pending.finish()?;
-    if args.json {
+    if args.world.json {
         let json = json!({ "preset": args.preset.name(), "folder": args.folder, "outputs": outputs });
         console.print(&(serde_json::to_string_pretty(&json)? + "\n"))?;
     } else if args.progress.is_for_people() {
@@ -81,7 +92,7 @@ fn check_places<'a>(
     console: &Console,
 ) -> Result<Option<cosmorama_io::pending::NewFolders>> {
     let paths: Vec<PathBuf> = files.map(|file| args.folder.join(file)).collect();
-    if !args.file.overwrite {
+    if !args.world.file.overwrite {
         refuse_existing(paths.iter().map(PathBuf::as_path))?;
     }
     for path in &paths {
@@ -91,8 +102,7 @@ fn check_places<'a>(
     if args.folder.is_file() {
         anyhow::bail!("{} is a file, where a folder was expected; name another", args.folder.display());
     }
-    let above = args.folder.parent().filter(|above| !args.file.no_mkdir && !above.as_os_str().is_empty());
-    above.map(|above| make_folder(above, console)).transpose()
+    make_parent(&args.folder, args.world.file, console)
 }
 
 /// Files of a folder under way.
@@ -106,6 +116,7 @@ struct Deployment<'a> {
     light: WorldLight,
     folder: &'a Path,
     console: &'a Console,
+    harmonics: OnceCell<(StoredHarmonics, Value)>,
 }
 
 impl Deployment<'_> {
@@ -121,19 +132,14 @@ impl Deployment<'_> {
             }
             Part::Specular => self.map(&path, (self.preset.cube, size), self.chain()?, Vec::new()),
             Part::SpecularWith(basis) => {
-                let text = self
-                    .harmonics(basis)?
-                    .0
-                    .numbers()
-                    .iter()
-                    .map(|[r, g, b]| format!("{r} {g} {b}\n"))
-                    .collect::<String>();
+                let (stored, _) = self.harmonics(basis)?;
+                let text: String = stored.numbers().iter().map(|[r, g, b]| format!("{r} {g} {b}\n")).collect();
                 self.map(&path, (self.preset.cube, size), self.chain()?, vec![Remark { name: "sh", text: text.into() }])
             }
             Part::Harmonics(basis) => {
-                let (stored, mut told) = self.harmonics(basis)?;
-                let name = preset::basis_name(basis);
-                write(&path, &harmonics::as_json(&stored, (name, basis.kind()))?)?;
+                let (stored, told) = self.harmonics(basis)?;
+                write(&path, &harmonics::as_json(stored, (basis.name(), basis.kind()))?)?;
+                let mut told = told.clone();
                 told["holds"] = json!("harmonics");
                 Ok(told)
             }
@@ -186,11 +192,14 @@ impl Deployment<'_> {
     /// Returns the levels of the chain of roughness.
     fn chain(&self) -> Result<Vec<LightLevel>> {
         let levels = (self.args.size.ilog2() - self.preset.last) as usize + 1;
-        maps::levels_of(self.preset.roughness, levels, self.args.size)
+        maps::levels_by(LobeName::Ggx, self.preset.roughness, (levels, self.args.size))
     }
 
-    /// Returns harmonics in an engine's form, and what they miss.
-    fn harmonics(&self, basis: HarmonicPreset) -> Result<(StoredHarmonics, Value)> {
+    /// Returns harmonics in the engine's form, and what they miss. They are summed once.
+    fn harmonics(&self, basis: HarmonicPreset) -> Result<&(StoredHarmonics, Value)> {
+        if let Some(found) = self.harmonics.get() {
+            return Ok(found);
+        }
         let (found, diagnostics) = self.light.harmonics((2, basis.basis()), None)?;
         diagnostics.iter().for_each(|diagnostic| self.console.warn(diagnostic));
         let stored = StoredHarmonics::of(basis, &found.harmonics, basis.kind())?;
@@ -200,7 +209,7 @@ impl Deployment<'_> {
             "irradiance": harmonics::missed(accuracy.irradiance),
             "energy_in": found.light.mean,
         });
-        Ok((stored, told))
+        Ok(self.harmonics.get_or_init(|| (stored, told)))
     }
 }
 

@@ -161,13 +161,3 @@ impl Preset {
 pub(super) fn named(text: &str, name: &str) -> String {
     text.replace("{name}", name)
 }
-
-/// Returns the name of a preset of harmonics.
-pub(super) fn basis_name(basis: HarmonicPreset) -> &'static str {
-    match basis {
-        HarmonicPreset::Filament => "filament",
-        HarmonicPreset::Three => "three",
-        HarmonicPreset::Unity => "unity",
-        HarmonicPreset::Godot => "godot",
-    }
-}
