@@ -30,7 +30,6 @@
 #![forbid(unsafe_code)]
 
 mod angle;
-mod compression;
 mod error;
 mod filter;
 mod frames;
@@ -42,7 +41,6 @@ mod spec;
 mod window;
 
 pub use angle::{Degrees, parse_degrees, parse_ramp};
-pub use compression::CompressionLevel;
 pub use error::{SpecError, WordError, WordKind, did_you_mean, nearest};
 pub use filter::{FilterName, KernelName};
 pub use frames::{FrameEnds, FrameMap, FrameRanges, FrameRangesError};

@@ -5,8 +5,7 @@ use std::fmt::{Debug, Display};
 use std::str::FromStr;
 
 use cosmorama_spec::{
-    Colour, CompressionLevel, DepthName, FilterName, FrameRanges, KernelName, MemorySize, Missing, Size, Spec,
-    SpecKind, TransferName,
+    Colour, DepthName, FilterName, FrameRanges, KernelName, MemorySize, Missing, Size, Spec, SpecKind, TransferName,
 };
 use proptest::prelude::*;
 use proptest::sample::select;
@@ -226,7 +225,6 @@ fn values_with_names_print_them() {
         assert_eq!(name.parse::<Missing>().unwrap().to_string(), name);
     }
     DepthName::ALL.into_iter().for_each(|depth| assert_eq!(depth.to_string().parse(), Ok(depth)));
-    CompressionLevel::ALL.into_iter().for_each(|level| assert_eq!(level.to_string().parse(), Ok(level)));
     assert_eq!("07%".parse::<MemorySize>().unwrap().to_string(), "7%");
 }
 

@@ -1,10 +1,9 @@
 use clap::builder::{NonEmptyStringValueParser, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
 use cosmorama_convert::{DepthKind, NormalSpace, OcioSettings};
-use cosmorama_io::FrameList;
+use cosmorama_io::{Compression, FrameList};
 use cosmorama_spec::{
-    Colour, CompressionLevel, DepthName, FrameMap, FrameRanges, FrameRangesError, MemorySize, Missing, PrimariesName,
-    Spec, TransferName,
+    Colour, DepthName, FrameMap, FrameRanges, FrameRangesError, MemorySize, Missing, PrimariesName, Spec, TransferName,
 };
 
 use super::ProgressStyle;
@@ -179,7 +178,7 @@ pub(crate) struct ConvertArgs {
     pub(crate) quality: Option<u8>,
     /// PNG, TIFF and OpenEXR: how hard to press, without loss [default: balanced; fast for PNG sequences]
     #[arg(long, value_parser = CompressionParser, value_name = "HOW", hide_short_help = true, help_heading = "Frames and files")]
-    pub(crate) compression: Option<CompressionLevel>,
+    pub(crate) compression: Option<Compression>,
     /// Write no metadata of the input: no attributes, texts, Exif or XMP
     ///
     /// Unless given, they go along where the output's format can hold them and they are still true (docs/metadata.md). Tags of

@@ -8,8 +8,7 @@ use cosmorama_convert::{
     Backdrop, BlurMethod, CameraMovement, Conversion, Existing, ExplanationSettings, GeometrySettings, LayerSettings,
     LimitSettings, MotionBlur, PoseFile,
 };
-use cosmorama_io::Compression;
-use cosmorama_spec::{CompressionLevel, FilterName};
+use cosmorama_spec::FilterName;
 
 use super::convert::LimitArgs;
 use super::geometry::{CameraArgs, GeometryArgs, MotionKind, ShutterArgs};
@@ -46,7 +45,7 @@ impl From<ConvertArgs> for Conversion {
             to_stream: args.format.is_some(),
             mips: args.mips,
             quality: args.quality,
-            compression: args.compression.map(compression),
+            compression: args.compression,
             strip: args.strip,
             limits: args.run.limits.into(),
             ..Self::default()
@@ -159,14 +158,5 @@ pub(super) fn existing(overwrite: bool, resume: bool) -> Existing {
         (true, _) => Existing::Replace,
         (false, true) => Existing::Resume,
         (false, false) => Existing::Refuse,
-    }
-}
-
-fn compression(level: CompressionLevel) -> Compression {
-    match level {
-        CompressionLevel::None => Compression::None,
-        CompressionLevel::Fast => Compression::Fast,
-        CompressionLevel::Balanced => Compression::Balanced,
-        CompressionLevel::High => Compression::High,
     }
 }

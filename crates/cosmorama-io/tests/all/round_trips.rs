@@ -6,7 +6,7 @@ use crate::common::picture;
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples, Transfer};
 use cosmorama_io::{
     EnvMap, Format, Limits, Metadata, Remark, Window, WriteOptions, probe, probe_from, read, read_from, write,
-    write_levels, write_to,
+    write_levels, write_planes, write_to,
 };
 
 const EXTENSIONS: [(Format, &str); 6] = [
@@ -378,4 +378,13 @@ fn remarks_are_written() {
             }
         }
     }
+}
+
+#[test]
+fn two_channels_of_one_name_are_not_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("twice.exr");
+    let planes = vec![("u", vec![0.0; 4]), ("v", vec![1.0; 4]), ("u", vec![2.0; 4])];
+    let error = write_planes(&path, (2, 2), planes, Depth::Float, &WriteOptions::default()).unwrap_err();
+    assert!(error.to_string().contains("two channels are called u") && !path.exists(), "{error}");
 }

@@ -2,7 +2,7 @@ use std::ffi::OsStr;
 
 use clap::builder::{PossibleValue, TypedValueParser};
 use clap::{Arg, Command, Error};
-use cosmorama_spec::CompressionLevel;
+use cosmorama_io::Compression;
 
 /// Parser of a compression level, whose error lists all levels and the formats that have them. Clap would take
 /// `nonsense` for `none`.
@@ -10,7 +10,7 @@ use cosmorama_spec::CompressionLevel;
 pub(crate) struct CompressionParser;
 
 impl TypedValueParser for CompressionParser {
-    type Value = CompressionLevel;
+    type Value = Compression;
 
     fn parse_ref(&self, cmd: &Command, arg: Option<&Arg>, value: &OsStr) -> Result<Self::Value, Error> {
         parse.parse_ref(cmd, arg, value)
@@ -18,12 +18,21 @@ impl TypedValueParser for CompressionParser {
 
     // For help and completions.
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        let value = |level: CompressionLevel| PossibleValue::new(level.name()).help(level.about());
-        Some(Box::new(CompressionLevel::ALL.into_iter().map(value)))
+        Some(Box::new(LEVELS.into_iter().map(|(_, name, about)| PossibleValue::new(name).help(about))))
     }
 }
 
-fn parse(text: &str) -> Result<CompressionLevel, String> {
-    text.parse()
-        .map_err(|expected| format!("{expected}, all without loss, for PNG, TIFF and OpenEXR; JPEG has --quality"))
+/// All levels, with their names and a line of help.
+const LEVELS: [(Compression, &str, &str); 4] = [
+    (Compression::None, "none", "Not at all"),
+    (Compression::Fast, "fast", "For speed; TIFF: as balanced"),
+    (Compression::Balanced, "balanced", "Between the two"),
+    (Compression::High, "high", "For size; OpenEXR: as balanced"),
+];
+
+fn parse(text: &str) -> Result<Compression, String> {
+    let found = LEVELS.into_iter().find(|(_, name, _)| *name == text);
+    let names = LEVELS.map(|(_, name, _)| name).join(", ");
+    let why = format!("expected one of {names}, all without loss, for PNG, TIFF and OpenEXR; JPEG has --quality");
+    found.map(|(level, ..)| level).ok_or(why)
 }
