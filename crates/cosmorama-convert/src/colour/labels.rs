@@ -36,6 +36,10 @@ pub(crate) fn check_labels(
             }
             return Err(usage(format!("{found}; give {DEPTH} {}, and inputs of one depth", header.depth)));
         }
+        if header.channels.has_alpha() {
+            let message = format!("{LABELS}: {path} has alpha: labels where it is 0 all become transparent black");
+            warnings.push(Diagnostic::warning(Code::AlphaRange, message));
+        }
         if let Some(codes) = &header.metadata.rescaled {
             let message =
                 format!("{LABELS}: the codes of {path} are {codes}: labels are those that they become by full range");

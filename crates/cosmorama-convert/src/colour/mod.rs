@@ -8,6 +8,7 @@ mod layers;
 mod light;
 mod ocio;
 mod profile;
+mod straight_alpha;
 mod thin_alpha;
 mod working;
 
@@ -19,3 +20,4 @@ pub(crate) use conversion::LightConversion;
 pub(crate) use labels::check_labels;
 pub(crate) use layers::{LayerContent, LayerGroup, LayerPlan, PictureNames, check_choice, check_light};
 pub(crate) use light::{FileColours, Light};
+pub(crate) use straight_alpha::StraightAlpha;

@@ -3,7 +3,7 @@
 use cosmorama::raster::Rgba;
 
 /// Alpha from which a pixel counts as full; allows for floats that were made from codes.
-const FULL: f32 = 0.999;
+pub(super) const FULL: f32 = 0.999;
 
 /// Range of alpha in pixels of which none is full.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -64,6 +64,8 @@ pub enum Code {
     AlphaFlattened,
     /// Alpha is nowhere full.
     AlphaThin,
+    /// Colours exceed alpha, as if they were not premultiplied.
+    AlphaStraight,
     /// Alpha is below 0 or above 1.
     AlphaRange,
     /// A colour profile is not carried over.

@@ -8,7 +8,7 @@ use cosmorama::filter::FilterKind;
 use cosmorama::sphere::Direction;
 use cosmorama_spec::Spec;
 
-use crate::colour::ThinAlpha;
+use crate::colour::{StraightAlpha, ThinAlpha};
 use crate::detect::disc;
 use crate::diagnostic::{Code, Diagnostic, FILTER, KERNEL, Remedy, Setting};
 use crate::engine::{Counts, FrameLight, balance};
@@ -138,11 +138,12 @@ fn shows_the_world(job: &ConvertJob) -> bool {
     100 * seen >= 99 * DIRECTIONS
 }
 
-/// Warns about files of a frame in which no pixel has full alpha.
-pub(crate) fn thin_alpha(job: &ConvertJob, frame: Option<u64>, light: &FrameLight) -> Vec<Diagnostic> {
+/// Warns about files of a frame in which no pixel has full alpha, or alpha seems to be straight.
+pub(crate) fn alpha(job: &ConvertJob, frame: Option<u64>, light: &FrameLight) -> Vec<Diagnostic> {
     if !job.light.input_alpha {
         return Vec::new();
     }
+    let mut straight = Vec::new();
     // A file may hold several views, of which some may be thin.
     let mut files: BTreeMap<PathBuf, Option<ThinAlpha>> = BTreeMap::new();
     let worlds = job.worlds.iter().enumerate();
@@ -150,19 +151,27 @@ pub(crate) fn thin_alpha(job: &ConvertJob, frame: Option<u64>, light: &FrameLigh
     for ((view, header, _), (world, source)) in job.input.present().zip(sources) {
         let path = view.files.path(frame);
         let known = files.get(&path).copied();
-        if !header.channels.has_alpha() || known == Some(None) {
+        if !header.channels.has_alpha() {
             continue;
         }
         let texels = source.offset..source.offset + source.texels().len();
-        let found = ThinAlpha::of(texels.map(|texel| light.texels().rgba(world, texel)));
+        let pixels = texels.map(|texel| light.texels().rgba(world, texel));
+        let told = StraightAlpha::of(pixels.clone()).told();
+        straight.extend(told.map(|told| (path.clone(), Code::AlphaStraight, told)));
+        if known == Some(None) {
+            continue;
+        }
+        let found = ThinAlpha::of(pixels);
         let both = found.map(|found| known.flatten().map_or(found, |known| known.with(found)));
         files.insert(path, both);
     }
-    let told = |(path, alpha): (PathBuf, Option<ThinAlpha>)| {
+    let thin = files.into_iter().filter_map(|(path, alpha)| Some((path, Code::AlphaThin, alpha?.told()?)));
+    let told = thin.chain(straight);
+    told.map(|(path, code, told)| {
         let path = path.display();
-        Some(Diagnostic::warning(Code::AlphaThin, format!("{path}: {}", alpha?.told()?)).about(path))
-    };
-    files.into_iter().filter_map(told).collect()
+        Diagnostic::warning(code, format!("{path}: {told}")).about(path)
+    })
+    .collect()
 }
 
 /// Warns if a lens has left its circle elsewhere than a `--from` that does not place it assumes.

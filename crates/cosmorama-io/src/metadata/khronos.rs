@@ -18,21 +18,27 @@ const PRIMARIES: [(u8, Primaries); 10] = [
 /// Number for unspecified primaries.
 pub(crate) const UNSPECIFIED: u8 = 0;
 
-/// Returns the primaries with a number; the error is an unknown number.
-pub(crate) fn primaries(number: u8) -> Result<Option<Primaries>, u8> {
-    if number == UNSPECIFIED {
-        return Ok(None);
-    }
-    let known = PRIMARIES.iter().find(|(known, _)| *known == number);
-    known.map(|(_, primaries)| Some(*primaries)).ok_or(number)
+/// Returns the primaries with a number, if they are known.
+pub(crate) fn primaries(number: u8) -> Option<Primaries> {
+    PRIMARIES.iter().find(|(known, _)| *known == number).map(|(_, primaries)| *primaries)
 }
 
-/// Returns the complaint about an unknown number.
-pub(crate) fn complaint(number: u8) -> String {
-    format!(
-        "the number of its primaries, {number}, is unknown here: they are taken for Rec. 709; expected 0 to 8, 10 or 11 of the \
-         Khronos Data Format Specification"
-    )
+/// Returns complaints about numbers of primaries and of a transfer function that are unknown here.
+pub(crate) fn complaints(of_primaries: u8, of_transfer: u8) -> Vec<String> {
+    let unknown = |is_known: bool, number: u8| !is_known && number != UNSPECIFIED;
+    let of_primaries = unknown(primaries(of_primaries).is_some(), of_primaries).then(|| {
+        format!(
+            "the number of its primaries, {of_primaries}, is unknown here: they are taken for Rec. 709; expected 0 to 8, 10 or \
+             11 of the Khronos Data Format Specification"
+        )
+    });
+    let of_transfer = unknown(transfer(of_transfer).is_some(), of_transfer).then(|| {
+        format!(
+            "the number of its transfer function, {of_transfer}, is unknown here, and ignored; expected 0 to 3 or 7 to 11 of \
+             the Khronos Data Format Specification"
+        )
+    });
+    of_primaries.into_iter().chain(of_transfer).collect()
 }
 
 /// Returns the number of primaries; unspecified for those that have none.
@@ -61,4 +67,16 @@ pub(crate) fn transfer(number: u8) -> Option<Transfer> {
 /// Returns the number of a transfer function; 0, unspecified, for those that have none.
 pub(crate) fn transfer_code(transfer: &Transfer) -> u8 {
     TRANSFERS.iter().find(|(_, known)| known == transfer).map_or(0, |(number, _)| *number)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn unknown_numbers_are_complained_of() {
+        assert!(complaints(4, 10).is_empty() && complaints(UNSPECIFIED, UNSPECIFIED).is_empty());
+        let [primaries, transfer] = &complaints(99, 98)[..] else { panic!("two complaints") };
+        assert!(primaries.contains("primaries, 99, is unknown") && transfer.contains("function, 98, is unknown"));
+    }
 }

@@ -86,6 +86,10 @@ pub const WIDEST: f64 = std::f64::consts::PI;
 /// apart.
 const NARROWEST: f64 = 1e-8;
 
+/// Breadth of a footprint, as a part of its length, below which it is flat. The squares of both must fit into the digits
+/// of a number.
+const FLATTEST: f64 = 1e-4;
+
 /// Number of directions along a side of a footprint's parallelogram.
 const SAMPLES: usize = 8;
 
@@ -101,7 +105,7 @@ fn broadened(footprint: &Footprint) -> Footprint {
     let Footprint { direction, jacobian: DirectionJacobian { dx, dy } } = *footprint;
     let along = if dx.length_squared() >= dy.length_squared() { dx } else { dy }.normalize();
     let length = (dx.length_squared() + dy.length_squared()).sqrt();
-    let jacobian = DirectionJacobian { dx: along * length, dy: direction.vector().cross(along) * NARROWEST };
+    let jacobian = DirectionJacobian { dx: along * length, dy: direction.vector().cross(along) * (FLATTEST * length) };
     Footprint { direction, jacobian }
 }
 
@@ -112,7 +116,7 @@ pub(crate) fn bounded(footprint: &Footprint) -> Option<Footprint> {
     let widest = x.max(y);
     if (NARROWEST * NARROWEST..=WIDEST * WIDEST).contains(&widest) {
         // Of one side, or of two along one line, nothing could be inverted.
-        let is_flat = dx.cross(dy).length_squared() < NARROWEST * NARROWEST * widest;
+        let is_flat = dx.cross(dy).length() < FLATTEST * widest;
         let whole = || if is_flat { broadened(footprint) } else { *footprint };
         return (x + y < f64::INFINITY).then(whole);
     }

@@ -51,6 +51,16 @@ fn codes_that_are_spread_are_told_of() {
     assert!(text(&output.stderr).contains("the codes of four.png are of 4 bits"), "{}", text(&output.stderr));
 }
 
+#[test]
+fn labels_of_alpha_0_are_told_of() {
+    let bench = Bench::new();
+    let samples = [200, 17, 3, 0].repeat(64 * 32);
+    bench.save("clear.png", &EncodedImage::new(64, 32, Channels::Rgba, Depth::Eight, Samples::U8(samples)).unwrap());
+    let words = ["convert", "clear.png", "out.png", "--from", "equirect", "--to", "fisheye", "--labels", "vote"];
+    let output = bench.run(&words);
+    assert!(text(&output.stderr).contains("clear.png has alpha: labels where it is 0"), "{}", text(&output.stderr));
+}
+
 /// A mean of labels over a shutter would be no label.
 #[test]
 fn labels_are_those_of_one_moment() {

@@ -152,6 +152,10 @@ fn what_is_outside_is_kept_in_floats_and_told_of_integers() {
         assert_says(&text(&run.stderr), &["green.exr: 100.00 % of its pixels lie outside", "Rec. 709", "clipped"]);
         assert_light(light(&bench, name), [0.0, light(&bench, name)[1].into(), 0.0], 1e-6);
     }
+    // So does light that was negative before, in the same primaries.
+    save(&bench, "negative.exr", [-0.25, 0.5, 0.5], Depth::Half, &Metadata::default());
+    let run = convert(&bench, "negative.exr", "negative.png", &[]);
+    assert_says(&text(&run.stderr), &["negative.exr: 100.00 % of its pixels lie outside", "clipped"]);
     // A format that names no primaries gets Rec. 709, and says so.
     save(&bench, "grey.png", [0.4, 0.5, 0.3], Depth::Eight, &tagged(Transfer::Srgb, Primaries::P3_D65));
     let run = convert(&bench, "grey.png", "out.tga", &[]);

@@ -8,7 +8,7 @@ use cosmorama::world::{RimTexels, Source, World};
 use cosmorama_io::Carried;
 use rayon::prelude::*;
 
-use crate::colour::FileColours;
+use crate::colour::{FileColours, LightConversion};
 use crate::diagnostic::{Result, bail};
 use crate::engine::{FrameFile, Stage, Stages, ViewImage, Which};
 use crate::job::ConvertJob;
@@ -147,7 +147,8 @@ impl FrameLight {
                 let rows = |image: &ViewImage, first: usize, into: &mut [Rgba]| {
                     let FileColours { transfer, conversion } = &image.colours;
                     let irregular = decoder.decode_rows(&image.image, transfer, first, into);
-                    Counts { irregular, outside: conversion.as_ref().map_or(0, |conversion| conversion.convert(into)) }
+                    let converted = |conversion: &LightConversion| conversion.convert(into);
+                    Counts { irregular, outside: conversion.as_ref().map_or(irregular.negative, converted) }
                 };
                 decode(images, views(job, worlds), stages, rows)
             }
@@ -209,7 +210,7 @@ impl Texels {
 pub(crate) struct Counts {
     /// Pixels whose samples are no light.
     pub(crate) irregular: IrregularPixels,
-    /// Pixels outside of the working primaries, where light was converted to these.
+    /// Pixels outside of the working primaries, which have negative light in these.
     pub(crate) outside: usize,
 }
 

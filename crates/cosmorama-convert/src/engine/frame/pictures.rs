@@ -212,7 +212,7 @@ impl<'a> Engine<'a> {
         // In a sequence, only the first frame is tested for suns, and for alpha that is nowhere full.
         let is_first = self.job.outputs.frames.first().is_some_and(|first| first.frame == frame);
         let suns = if is_first { warnings::suns(self.job, light) } else { None };
-        let thin = if is_first { warnings::thin_alpha(self.job, frame, light) } else { Vec::new() };
+        let thin = if is_first { warnings::alpha(self.job, frame, light) } else { Vec::new() };
         let flat = |path: &Path| {
             let message = format!(
                 "{}: transparent pixels, but the first frame has no alpha: they are laid over the background; to keep them \

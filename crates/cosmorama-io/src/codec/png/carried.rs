@@ -9,7 +9,7 @@ use png::{EncodingError, Writer};
 use super::reader::MARK;
 use crate::codec::behind::next_bytes;
 use crate::codec::interface::Source;
-use crate::metadata::{LARGEST_EXIF, XMP};
+use crate::metadata::{LARGEST_EXIF, XMP, iptc};
 use crate::{Carried, Metadata, TextChunk};
 
 /// Content of the chunks, and complaints about content that is left out.
@@ -66,16 +66,37 @@ pub(super) fn read(source: Source<'_>) -> io::Result<Found> {
 impl Found {
     fn add(&mut self, kind: [u8; 4], data: Vec<u8>) {
         if &kind == b"eXIf" {
-            let added = self.carried.add_exif(&data);
-            self.complain("Exif", added);
+            self.add_exif(&data);
             return;
         }
         let chunk = TextChunk { kind, data };
-        if chunk.keyword() != XMP {
-            self.carried.texts.push(chunk);
+        if chunk.keyword() == XMP {
+            self.add_xmp(chunk.text().unwrap_or_default());
             return;
         }
-        let packet = chunk.text().unwrap_or_default();
+        match chunk.raw_profile() {
+            Some((kind, bytes)) => self.add_profile(&kind, &bytes),
+            None => self.carried.texts.push(chunk),
+        }
+    }
+
+    /// Takes metadata in ImageMagick's old form over, unless the file has them in PNG's own.
+    fn add_profile(&mut self, kind: &str, bytes: &[u8]) {
+        match kind {
+            "exif" if self.carried.exif.is_none() => self.add_exif(bytes.strip_prefix(b"Exif\0\0").unwrap_or(bytes)),
+            "xmp" if self.packet.is_none() => self.add_xmp(String::from_utf8_lossy(bytes).into_owned()),
+            "exif" | "xmp" => {}
+            "iptc" => self.carried.unread.push(iptc::kind(bytes)),
+            _ => self.carried.unread.push("a profile in ImageMagick's old form"),
+        }
+    }
+
+    fn add_exif(&mut self, block: &[u8]) {
+        let added = self.carried.add_exif(block);
+        self.complain("Exif", added);
+    }
+
+    fn add_xmp(&mut self, packet: String) {
         let added = self.carried.add_xmp(packet.as_bytes());
         self.complain("XMP", added);
         self.packet = Some(packet);

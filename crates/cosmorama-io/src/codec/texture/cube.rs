@@ -8,7 +8,6 @@ use rayon::prelude::*;
 use super::packing::Packed;
 use super::texel::Texels;
 use crate::codec::interface::{Codec, Sink, Source, is_beside_others, whole_image};
-use crate::metadata::khronos;
 use crate::{EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata, WriteOptions};
 
 /// Supported textures, for messages.
@@ -81,8 +80,10 @@ pub(super) struct CubeTexture {
     pub(super) texels: Texels,
     /// Transfer function, if the file names one.
     pub(super) transfer: Option<Transfer>,
-    /// Primaries; the error is an unknown number.
-    pub(super) primaries: Result<Option<Primaries>, u8>,
+    /// Primaries, if the file names known ones.
+    pub(super) primaries: Option<Primaries>,
+    /// Complaints about what the file says of its colours.
+    pub(super) complaints: Vec<String>,
     /// Relation of colour to alpha.
     pub(super) alpha: AlphaMode,
     /// Columns, and rows, of a face.
@@ -101,8 +102,8 @@ impl CubeTexture {
         let edge = self.edge as usize;
         let metadata = Metadata {
             transfer: self.transfer.clone(),
-            primaries: self.primaries.unwrap_or_default(),
-            complaints: self.primaries.err().map(khronos::complaint).into_iter().collect(),
+            primaries: self.primaries,
+            complaints: self.complaints.clone(),
             envmap: Some(EnvMap::GlCube),
             ..Metadata::default()
         };
@@ -131,7 +132,13 @@ impl CubeTexture {
 
     /// Returns the bytes of a face.
     pub(super) fn face_bytes(&self) -> u64 {
-        let blocks = u64::from(self.edge.div_ceil(self.texels.block_edge()));
+        self.level_bytes(0)
+    }
+
+    /// Returns the bytes of a face's smaller copy, with half the edge at each level.
+    pub(super) fn level_bytes(&self, level: u32) -> u64 {
+        let edge = (self.edge >> level).max(1);
+        let blocks = u64::from(edge.div_ceil(self.texels.block_edge()));
         let row = (blocks * self.texels.block_bytes()).next_multiple_of(self.row_alignment);
         row.saturating_mul(blocks)
     }

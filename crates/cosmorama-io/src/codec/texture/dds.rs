@@ -80,7 +80,8 @@ fn texture(path: &Path, source: Source<'_>) -> Result<CubeTexture, IoError> {
     let mut cube = CubeTexture {
         texels,
         transfer: if texels.depth() == Depth::Eight { srgb.then_some(Transfer::Srgb) } else { Some(Transfer::Linear) },
-        primaries: Ok(None),
+        primaries: None,
+        complaints: Vec::new(),
         alpha: if premultiplied { AlphaMode::Premultiplied } else { AlphaMode::Straight },
         edge: header.width,
         row_alignment: 1,
@@ -102,8 +103,7 @@ fn texture(path: &Path, source: Source<'_>) -> Result<CubeTexture, IoError> {
 /// Returns the bytes of a face with its mip levels, which follow it.
 fn face_stride(cube: &CubeTexture, levels: u32) -> u64 {
     // A face of 2³¹ × 2³¹ pixels has 32 levels.
-    let level = |level: u32| CubeTexture { edge: (cube.edge >> level).max(1), transfer: None, ..*cube }.face_bytes();
-    (0..levels.clamp(1, 32)).map(level).fold(0, u64::saturating_add)
+    (0..levels.clamp(1, 32)).map(|level| cube.level_bytes(level)).fold(0, u64::saturating_add)
 }
 
 /// Returns the encoding of texels of Direct3D 9, whose names begin with the highest byte.

@@ -137,7 +137,8 @@ fn texture(path: &Path, source: Source<'_>) -> Result<CubeTexture, IoError> {
     let mut cube = CubeTexture {
         texels,
         transfer,
-        primaries: Ok(None),
+        primaries: None,
+        complaints: Vec::new(),
         alpha: if texels.depth() == Depth::Eight { AlphaMode::Straight } else { AlphaMode::Premultiplied },
         edge: width,
         row_alignment: 4,

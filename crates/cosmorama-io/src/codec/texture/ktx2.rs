@@ -179,6 +179,7 @@ fn texture(path: &Path, source: Source<'_>) -> Result<CubeTexture, IoError> {
             said.filter(|_| integers).or_else(|| (!integers).then_some(Transfer::Linear))
         },
         primaries: khronos::primaries(descriptor[13]),
+        complaints: khronos::complaints(descriptor[13], descriptor[14]),
         alpha: if premultiplied { AlphaMode::Premultiplied } else { AlphaMode::Straight },
         edge: header.pixel_width,
         row_alignment: 1,

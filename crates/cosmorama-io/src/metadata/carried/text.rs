@@ -50,8 +50,19 @@ impl TextChunk {
         self.keyword() == "Software"
     }
 
-    /// Returns whether the text is about the input's pixels: previews, and metadata of other kinds in ImageMagick's old
-    /// form.
+    /// Returns the kind and the bytes of metadata in ImageMagick's old form: a name, a length, and hexadecimal digits.
+    pub(crate) fn raw_profile(&self) -> Option<(String, Vec<u8>)> {
+        let kind = self.keyword().strip_prefix("Raw profile type ")?.to_ascii_lowercase();
+        let text = self.text()?;
+        let mut words = text.split_ascii_whitespace().skip(1);
+        let length: usize = words.next()?.parse().ok()?;
+        let digits: Vec<u8> = words.flat_map(str::bytes).collect();
+        let byte = |pair: &[u8]| u8::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok();
+        let bytes: Vec<u8> = digits.chunks_exact(2).map(byte).collect::<Option<_>>()?;
+        (bytes.len() == length).then_some((kind, bytes))
+    }
+
+    /// Returns whether the text is about the input's pixels: previews, and damaged metadata in ImageMagick's old form.
     pub(super) fn is_untrue(&self) -> bool {
         let keyword = self.keyword();
         ["Raw profile type ", "Thumb::", "png:"].iter().any(|start| keyword.starts_with(start))
@@ -74,4 +85,22 @@ fn unpacked(packed: &[u8]) -> Option<Vec<u8>> {
     let mut text = Vec::new();
     ZlibDecoder::new(packed).take(LONGEST + 1).read_to_end(&mut text).ok()?;
     (text.len() as u64 <= LONGEST).then_some(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn profile(keyword: &str, text: &str) -> Option<(String, Vec<u8>)> {
+        TextChunk { kind: *b"tEXt", data: format!("Raw profile type {keyword}\0{text}").into_bytes() }.raw_profile()
+    }
+
+    #[test]
+    fn metadata_in_imagemagicks_old_form_are_read() {
+        assert_eq!(profile("APP1", "\ngeneric profile\n"), None);
+        assert_eq!(profile("xmp", "\nxmp\n       3\n3c783e\n"), Some(("xmp".to_owned(), b"<x>".to_vec())));
+        // A wrong length, and what are no digits.
+        assert_eq!(profile("xmp", "\nxmp\n       4\n3c783e\n"), None);
+        assert_eq!(profile("xmp", "\nxmp\n       3\n3c7\u{e9}e\n"), None);
+    }
 }

@@ -16,6 +16,8 @@ pub struct IrregularPixels {
     pub infinite: usize,
     /// Pixels whose alpha is below 0 or above 1, which is decoded as 0 or 1.
     pub alpha: usize,
+    /// Pixels with a negative colour, which stays as it is.
+    pub negative: usize,
 }
 
 impl IrregularPixels {
@@ -24,8 +26,13 @@ impl IrregularPixels {
         if raw.0.iter().any(|sample| sample.is_nan()) {
             return Self { missing: 1, ..Self::default() };
         }
-        let is_infinite = raw.0.iter().any(|sample| sample.is_infinite());
-        Self { missing: 0, infinite: is_infinite.into(), alpha: (!(0.0..=1.0).contains(&raw.alpha())).into() }
+        let [red, green, blue, alpha] = raw.0;
+        Self {
+            missing: 0,
+            infinite: raw.0.iter().any(|sample| sample.is_infinite()).into(),
+            alpha: (!(0.0..=1.0).contains(&alpha)).into(),
+            negative: (red < 0.0 || green < 0.0 || blue < 0.0).into(),
+        }
     }
 }
 
@@ -36,6 +43,7 @@ impl Add for IrregularPixels {
             missing: self.missing + other.missing,
             infinite: self.infinite + other.infinite,
             alpha: self.alpha + other.alpha,
+            negative: self.negative + other.negative,
         }
     }
 }
@@ -321,9 +329,9 @@ mod tests {
     fn infinite_samples_and_impossible_alpha_are_counted() {
         let mut light = [Rgba::TRANSPARENT; 4];
         let (infinity, nan) = (f32::INFINITY, f32::NAN);
-        let samples = vec![infinity, -1.0, 1.0, 0.5, 2.0, 1.5, nan, infinity];
+        let samples = vec![infinity, -1.0, -1.0, 0.5, 2.0, 1.5, nan, infinity];
         let image = EncodedImage::new(4, 1, Channels::GreyAlpha, Depth::Float, Samples::Float(samples)).unwrap();
-        let expected = IrregularPixels { missing: 1, infinite: 1, alpha: 2 };
+        let expected = IrregularPixels { missing: 1, infinite: 1, alpha: 2, negative: 1 };
         assert_eq!(image.decode(&Transfer::Linear, &mut light), expected);
         assert_eq!(light.map(Rgba::alpha), [0.0, 0.5, 1.0, 0.0]);
     }

@@ -110,7 +110,7 @@ impl Exif {
                 untrue.push("thumbnail".to_owned());
                 continue;
             }
-            match rules::fate(field.tag) {
+            match rules::fate_of(&field) {
                 Fate::Kept => kept.push(field),
                 Fate::Rewritten => {}
                 Fate::Untrue => untrue.push(name(field.tag)),

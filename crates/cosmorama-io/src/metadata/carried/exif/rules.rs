@@ -2,7 +2,7 @@
 //! stored, so that only listed fields are kept: those about the camera and by the photographer. Of the camera's
 //! directory, all fields are kept except listed ones.
 
-use ::exif::{Context, Tag};
+use ::exif::{Context, Field, Tag, Value};
 
 /// Treatment of a field for another file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,7 +39,19 @@ const UNTRUE: [u16; 11] = [37396, 37500, 40964, 41484, 41486, 41487, 41488, 4149
 /// GPSImgDirectionRef and GPSImgDirection, the direction of the picture's middle.
 const DIRECTION: [u16; 2] = [16, 17];
 
+/// Beginnings of descriptions by which tifffile and ImageJ read a picture's sizes.
+const OF_SIZES: [&[u8]; 2] = [b"{\"shape\":", b"ImageJ="];
+
 /// Returns the treatment of a field for another file.
+pub(super) fn fate_of(field: &Field) -> Fate {
+    let is_of_sizes = |text: &Vec<u8>| OF_SIZES.iter().any(|start| text.starts_with(start));
+    match (field.tag, &field.value) {
+        (Tag::ImageDescription, Value::Ascii(texts)) if texts.iter().any(is_of_sizes) => Fate::Untrue,
+        (tag, _) => fate(tag),
+    }
+}
+
+/// Returns the treatment of a field of this kind, whatever it says.
 pub(super) fn fate(tag: Tag) -> Fate {
     let Tag(context, number) = tag;
     let of = |is_untrue: bool, is_rewritten: bool| match (is_untrue, is_rewritten) {
@@ -52,5 +64,22 @@ pub(super) fn fate(tag: Tag) -> Fate {
         Context::Exif => of(UNTRUE.contains(&number), REWRITTEN.contains(&number)),
         Context::Gps => of(DIRECTION.contains(&number), false),
         _ => Fate::Rewritten,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ::exif::In;
+
+    #[test]
+    fn descriptions_of_sizes_are_untrue() {
+        let fate_of = |text: &str| {
+            let value = Value::Ascii(vec![text.as_bytes().to_vec()]);
+            fate_of(&Field { tag: Tag::ImageDescription, ifd_num: In::PRIMARY, value })
+        };
+        assert_eq!(fate_of("{\"shape\": [64, 32, 3]}"), Fate::Untrue);
+        assert_eq!(fate_of("ImageJ=1.53t\nimages=3\nslices=3\n"), Fate::Untrue);
+        assert_eq!(fate_of("A shape of ImageJ"), Fate::Kept);
     }
 }
