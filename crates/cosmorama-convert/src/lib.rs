@@ -18,6 +18,7 @@ mod packing;
 mod settings;
 mod source;
 mod target;
+mod verify;
 
 pub use colour::{InputTransfer, LayerRules, ThinAlpha, contents};
 pub use conversion::{
@@ -37,3 +38,4 @@ pub use settings::{
 };
 pub use source::{Disk, Files, InMemory, MemoryBudget, ViewFiles, existing_frames, peak_bytes, probe, read};
 pub use target::{CHAIN_EDGE, Picture, is_cube_of_light};
+pub use verify::{Fault, Faults, SheetLayout, Verification, Verified, check_sheet};

@@ -11,6 +11,7 @@ pub(crate) mod light;
 mod parse;
 mod settings;
 mod shade;
+mod verify;
 
 use clap::{Arg, Command, CommandFactory, Parser, Subcommand};
 
@@ -28,6 +29,7 @@ pub(crate) use light::{
 };
 pub(crate) use parse::progress::ProgressStyle;
 pub(crate) use shade::{BackgroundName, CameraName, MaterialName, ObjectName, Point, RefractName, ShadeArgs};
+pub(crate) use verify::VerifyArgs;
 
 /// Example commands in the program's own help.
 const EXAMPLES: [&str; 3] = [
@@ -37,7 +39,7 @@ const EXAMPLES: [&str; 3] = [
 ];
 
 /// All verbs with their examples.
-const VERBS: [(&str, &[&str]); 10] = [
+const VERBS: [(&str, &[&str]); 11] = [
     ("demo", &demo::EXAMPLES),
     ("convert", &convert::EXAMPLES),
     ("light", &light::EXAMPLES),
@@ -45,6 +47,7 @@ const VERBS: [(&str, &[&str]); 10] = [
     ("info", &info::EXAMPLES),
     ("explain", &explain::EXAMPLES),
     ("compare", &compare::EXAMPLES),
+    ("verify", &verify::EXAMPLES),
     ("completions", &help::COMPLETIONS_EXAMPLES),
     ("man", &help::MAN_EXAMPLES),
     ("help", &help::EXAMPLES),
@@ -85,6 +88,8 @@ pub(crate) enum Verb {
     Explain(Box<ExplainArgs>),
     /// Compare two pictures: PSNR, largest difference, sub-pixel shift
     Compare(CompareArgs),
+    /// Find frames of a sequence that are missing, damaged, unlike the others, black or frozen
+    Verify(VerifyArgs),
     /// Print a shell's completion script
     Completions(CompletionsArgs),
     /// Print the manual, or write its pages into a folder

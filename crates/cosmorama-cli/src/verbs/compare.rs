@@ -4,12 +4,12 @@ use std::process::ExitCode;
 use anyhow::{Result, anyhow};
 use cosmorama::camera::{CameraModel, FisheyeCamera, OmnimaxCamera};
 use cosmorama::compare::{CompareError, Comparison, Mask, OwnPeak, Registration, compare, difference_image};
-use cosmorama::raster::{Channels, ColourMatrix, Depth, EncodedImage, Image, Primaries, Rgba, Transfer};
+use cosmorama::raster::{ColourMatrix, Image, Primaries, Rgba};
 use cosmorama_convert::{Files, InputTransfer, MemoryBudget, probe, read, real_path, refuse_existing};
-use cosmorama_io::{FacePattern, Format, FramePattern, Header, Limits, Metadata, WriteOptions, write};
+use cosmorama_io::{FacePattern, Format, FramePattern, Header, Limits};
 use serde_json::{Value, json};
 
-use super::make_folder;
+use super::{make_folder, write_picture};
 use crate::args::{CompareArgs, Region};
 use crate::console::{Console, say};
 use crate::failure::usage;
@@ -53,14 +53,9 @@ pub(super) fn run(args: &CompareArgs, console: &mut Console) -> Result<ExitCode>
     })?;
     if let (Some(path), Some(format)) = (&args.diff, format) {
         let difference = difference_image(&first, &second, &mask, args.gain)?;
-        let (depth, channels) = (format.nearest_depth(Depth::Eight), format.nearest_channels(Channels::Rgb));
-        let transfer = if depth.is_float() { Transfer::Linear } else { Transfer::Srgb };
-        let encoded = EncodedImage::encode(&difference, channels, depth, &transfer);
-        let metadata = Metadata { transfer: Some(transfer), ..Metadata::default() };
-        let options = WriteOptions { unfinished: console.unfinished.clone(), ..WriteOptions::with_metadata(metadata) };
         let folder = path.parent().filter(|folder| !args.no_mkdir && !folder.exists());
         let _folders = folder.map(|folder| make_folder(folder, console)).transpose()?;
-        write(path, &encoded, &options)?;
+        write_picture((path, format), &difference, console)?;
     }
     let failures = failures(args, &comparison);
     let text = if args.json { json_text(args, &comparison, &failures)? } else { plain_text(&comparison) };

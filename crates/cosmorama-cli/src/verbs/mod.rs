@@ -9,15 +9,17 @@ mod help;
 mod info;
 mod light;
 mod shade;
+mod verify;
 
 use std::fmt::Display;
 use std::path::Path;
 use std::process::ExitCode;
 
 use anyhow::{Result, anyhow};
-use cosmorama::raster::Depth;
+use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
 use cosmorama_convert::refuse_existing;
 use cosmorama_io::pending::NewFolders;
+use cosmorama_io::{Format, Metadata, WriteOptions, write};
 use cosmorama_spec::DepthName;
 
 use crate::args::{OutputArgs, Verb};
@@ -36,6 +38,7 @@ pub(crate) fn run(verb: Verb, console: &mut Console) -> Result<ExitCode> {
         Verb::Info(args) => info::run(&args, console),
         Verb::Explain(args) => explain::run(*args, console),
         Verb::Compare(args) => compare::run(&args, console),
+        Verb::Verify(args) => verify::run(&args, console),
         Verb::Completions(args) => help::completions(&args, console),
         Verb::Man(args) => help::man(&args, console),
         Verb::Help(args) => help::help(&args, console),
@@ -65,6 +68,16 @@ fn check_depth(path: &Path, what: impl Display, depth: Depth, held: &[Depth]) ->
     let names: Vec<&str> = held.iter().map(|depth| DepthName(*depth).name()).collect();
     let (path, depth) = (path.display(), DepthName(depth));
     Err(usage(format!("{path}: {what} has no --depth {depth}; choose {}", names.join(", "))))
+}
+
+/// Writes a picture for people to look at.
+fn write_picture((path, format): (&Path, Format), picture: &Image<Rgba>, console: &Console) -> Result<()> {
+    let (depth, channels) = (format.nearest_depth(Depth::Eight), format.nearest_channels(Channels::Rgb));
+    let transfer = if depth.is_float() { Transfer::Linear } else { Transfer::Srgb };
+    let encoded = EncodedImage::encode(picture, channels, depth, &transfer);
+    let metadata = Metadata { transfer: Some(transfer), ..Metadata::default() };
+    let options = WriteOptions { unfinished: console.unfinished.clone(), ..WriteOptions::with_metadata(metadata) };
+    Ok(write(path, &encoded, &options)?)
 }
 
 /// Makes a folder that does not exist yet, with those above it. Folders that stay empty are removed with the returned

@@ -73,6 +73,7 @@ mod sequence {
     mod sequence_memory;
     mod sequences;
     mod sky;
+    mod verify;
 }
 
 mod usage {

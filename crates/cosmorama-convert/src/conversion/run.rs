@@ -170,7 +170,9 @@ impl Run<'_> {
         drop(light);
         let write = || {
             let outputs = frame.files.par_iter().zip(pictures);
-            let save = |path, levels| engine.writer().save_frame(carried.as_ref(), levels, path, Threads::All);
+            let origin = job.outputs.origin(&*job.files, &job.input, frame.frame);
+            let said = (carried.as_ref(), origin.as_deref());
+            let save = |path, levels| engine.writer().save_frame(said, levels, path, Threads::All);
             outputs.try_for_each(|((_, path), levels)| save(path, levels))
         };
         pool.install(|| stages.alone(Stage::Encode, write))?;

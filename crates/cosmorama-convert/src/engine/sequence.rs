@@ -148,11 +148,15 @@ impl<'a> Sequence<'a> {
     where
         'a: 's,
     {
-        let Self { engine, stages, .. } = *self;
+        let Self { job, engine, stages, .. } = *self;
+        let origin = job.outputs.origin(&*job.files, &job.input, frame.frame).map(Arc::<str>::from);
         let write = |((_, path), levels): (&'a (usize, std::path::PathBuf), Levels)| {
             let path: &'a Path = path;
-            let carried = carried.clone();
-            let save = move || engine.writer().save_frame(carried.as_ref(), levels, path, Threads::One);
+            let (carried, origin) = (carried.clone(), origin.clone());
+            let save = move || {
+                let said = (carried.as_ref(), origin.as_deref());
+                engine.writer().save_frame(said, levels, path, Threads::One)
+            };
             task(turn, move || stages.beside(Stage::Encode, save))
         };
         frame.files.iter().zip(pictures).map(write).collect()

@@ -73,19 +73,21 @@ impl Writer {
         self.save_with(&self.options, levels, path, threads)
     }
 
-    /// Writes an output with the metadata of its own frame.
+    /// Writes an output with what its own frame says: metadata of the frame's inputs, and words about how it was made.
     pub(crate) fn save_frame(
         &self,
-        carried: Option<&Arc<Carried>>,
+        (carried, origin): (Option<&Arc<Carried>>, Option<&str>),
         levels: Levels,
         path: &Path,
         threads: Threads,
     ) -> Result<()> {
-        let Some(carried) = carried.filter(|carried| **carried != self.options.metadata.carried) else {
-            return self.save(levels, path, threads);
-        };
         let mut options = self.options.clone();
-        options.metadata.carried = Arc::clone(carried);
+        if let Some(carried) = carried {
+            options.metadata.carried = Arc::clone(carried);
+        }
+        if let Some(origin) = origin {
+            options.metadata = options.metadata.with_origin(origin);
+        }
         self.save_with(&options, levels, path, threads)
     }
 

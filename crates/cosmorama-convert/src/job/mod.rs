@@ -7,6 +7,7 @@ pub(crate) mod coverage;
 pub(crate) mod gaps;
 mod memory_needs;
 pub(crate) mod options;
+mod origin;
 pub(crate) mod outputs;
 mod queue_depth;
 mod resume;
@@ -16,5 +17,6 @@ pub use resume::Remade;
 
 pub(crate) use content::Content;
 pub(crate) use convert_job::{ConvertJob, Purpose};
+pub(crate) use origin::settings_of;
 pub(crate) use outputs::{FrameOutputs, Outputs, files_read};
 pub(crate) use queue_depth::{FrameMemory, QueueDepth};

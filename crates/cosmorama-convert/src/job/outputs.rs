@@ -7,8 +7,9 @@ use crate::colour::{LayerPlan, Light};
 use crate::diagnostic::{Code, Diagnostic, FRAMES, OVERWRITE, RESUME, Result, bail, failure, usage, usage_as};
 use crate::input::Input;
 use crate::job::Remade;
+use crate::job::origin::Origin;
 use crate::settings::{Conversion, Existing, GeometrySettings};
-use crate::source::{MemoryBudget, ViewFiles};
+use crate::source::{Files, MemoryBudget, ViewFiles};
 use crate::target::{Target, TargetFile};
 
 /// A frame with its outputs that are still to be made.
@@ -27,6 +28,8 @@ pub(crate) struct Outputs {
     pub(crate) skipped: usize,
     /// Outputs that are made again because something else is in their place.
     pub(crate) remade: Vec<Remade>,
+    /// Settings by which they are made; `None` where there are no outputs.
+    origin: Option<Origin>,
     /// Folders that were created for outputs; they are removed with this value if they stay empty.
     _folders: NewFolders,
 }
@@ -47,10 +50,15 @@ impl Outputs {
         Remade::warning(&self.remade)
     }
 
+    /// Returns words about how the files of a frame are made, which go into them.
+    pub(crate) fn origin(&self, files: &dyn Files, input: &Input, frame: Option<u64>) -> Option<String> {
+        self.origin.as_ref()?.of_frame(files, input, frame)
+    }
+
     /// Returns the frames of an input whose light is read, without any output.
     pub(crate) fn none(input: &Input) -> Self {
         let frames = input.frames.iter().map(|frame| FrameOutputs { frame: *frame, files: Vec::new() }).collect();
-        Self { frames, skipped: 0, remade: Vec::new(), _folders: NewFolders::new(&Unfinished::default()) }
+        Self { frames, skipped: 0, remade: Vec::new(), origin: None, _folders: NewFolders::new(&Unfinished::default()) }
     }
 
     /// Plans the outputs of all frames, and checks them against the inputs and existing files.
@@ -92,17 +100,18 @@ impl Outputs {
             }
             frames.push(FrameOutputs { frame, files });
         }
-        let mut remade = Vec::new();
+        let (mut remade, origin) = (Vec::new(), Origin::of(args));
         let all: usize = frames.iter().map(|frame| frame.files.len()).sum();
         if args.existing == Existing::Resume {
-            remade = Remade::find(&mut frames, &target.files, (light, layers), memory);
+            let of = |frame| origin.of_frame(&*args.files, input, frame);
+            remade = Remade::find(&mut frames, &target.files, (light, layers, &of), memory)?;
         } else if args.existing == Existing::Refuse {
             let files = frames.iter().flat_map(|frame| frame.files.iter().map(|(_, path)| path.as_path()));
             refuse_existing_or(files, &format!(", or keep what is there with {RESUME}"))?;
         }
         frames.retain(|frame| !frame.files.is_empty());
         let left: usize = frames.iter().map(|frame| frame.files.len()).sum();
-        Ok(Self { frames, skipped: all - left, remade, _folders: made })
+        Ok(Self { frames, skipped: all - left, remade, origin: Some(origin), _folders: made })
     }
 }
 

@@ -1,12 +1,13 @@
 use std::path::{Path, PathBuf};
 
 use cosmorama::raster::FramePool;
-use cosmorama_io::{Choice, Format, IoError, Limits, open, probe_chosen, read_chosen};
+use cosmorama_io::{Choice, Format, IoError, Limits, Metadata, open, probe_chosen, read_chosen};
 use rayon::prelude::*;
 
 use crate::colour::{LayerPlan, Light};
-use crate::diagnostic::{Code, Diagnostic, RESUME};
+use crate::diagnostic::{Code, ConvertError, Diagnostic, OVERWRITE, RESUME, Result, failed_as};
 use crate::job::FrameOutputs;
+use crate::job::origin::differences;
 use crate::source::MemoryBudget;
 use crate::target::TargetFile;
 
@@ -26,40 +27,70 @@ enum Found {
     Complete,
     /// Something else, in words.
     Other(String),
+    /// A whole picture by other settings, or from other inputs; the parts in which these differ.
+    Otherwise(Vec<String>),
 }
+
+/// Expectation of an output.
+#[derive(Clone, Copy)]
+struct Expected<'a> {
+    target: &'a TargetFile,
+    light: &'a Light,
+    layers: &'a LayerPlan,
+    /// Words about how the frame is made.
+    origin: Option<&'a str>,
+}
+
+/// Function that returns words about how a frame is made.
+type OriginOf<'a> = &'a (dyn Fn(Option<u64>) -> Option<String> + Sync);
 
 impl Remade {
     /// Removes from each frame the outputs that are complete. Returns the others whose places hold something else.
+    ///
+    /// # Errors
+    /// When an output was made by other settings, or from other inputs.
     pub(crate) fn find(
         frames: &mut [FrameOutputs],
         targets: &[TargetFile],
-        (light, layers): (&Light, &LayerPlan),
+        (light, layers, origin): (&Light, &LayerPlan, OriginOf<'_>),
         memory: MemoryBudget,
-    ) -> Vec<Self> {
+    ) -> Result<Vec<Self>> {
         // As many outputs at once as fit into memory when decoded.
         let bytes = |size| light.file_bytes(size).saturating_add(layers.file_bytes(size));
         let largest = targets.iter().map(|file| bytes(file.sheet.size)).max().unwrap_or(0);
         let at_once = (memory.bytes / largest.max(1)).clamp(1, frames.len().max(1) as u64) as usize;
         let mut all = Vec::new();
         for some in frames.chunks_mut(at_once) {
-            let remade: Vec<Vec<Self>> =
-                some.par_iter_mut().map(|frame| Self::of(frame, targets, (light, layers))).collect();
+            let of = |frame: &mut FrameOutputs| Self::of(frame, targets, (light, layers, origin));
+            let remade: Vec<Vec<Self>> = some.par_iter_mut().map(of).collect::<Result<_>>()?;
             all.extend(remade.into_iter().flatten());
         }
-        all
+        Ok(all)
     }
 
-    fn of(frame: &mut FrameOutputs, targets: &[TargetFile], made: (&Light, &LayerPlan)) -> Vec<Self> {
-        let mut remade = Vec::new();
-        frame.files.retain(|(index, path)| match Found::at(path, &targets[*index], made) {
-            Found::Nothing => true,
-            Found::Complete => false,
-            Found::Other(reason) => {
-                remade.push(Self { output: path.clone(), reason });
-                true
+    fn of(
+        frame: &mut FrameOutputs,
+        targets: &[TargetFile],
+        (light, layers, origin): (&Light, &LayerPlan, OriginOf<'_>),
+    ) -> Result<Vec<Self>> {
+        // What reads inputs, so only where there is something to compare with.
+        let exists = frame.files.iter().any(|(_, path)| path.exists());
+        let origin = if exists { origin(frame.frame) } else { None };
+        let (mut remade, mut left) = (Vec::new(), Vec::new());
+        for (index, path) in std::mem::take(&mut frame.files) {
+            let expected = Expected { target: &targets[index], light, layers, origin: origin.as_deref() };
+            match Found::at(&path, expected) {
+                Found::Nothing => left.push((index, path)),
+                Found::Complete => {}
+                Found::Other(reason) => {
+                    remade.push(Self { output: path.clone(), reason });
+                    left.push((index, path));
+                }
+                Found::Otherwise(parts) => return Err(otherwise(&path, &parts)),
             }
-        });
-        remade
+        }
+        frame.files = left;
+        Ok(remade)
     }
 
     /// Returns the warning about outputs that are made again; `None` if there are none.
@@ -82,7 +113,8 @@ impl Remade {
 impl Found {
     /// Examines the place of an output. Outputs appear whole, so a readable image of the right size and kind is
     /// complete.
-    fn at(path: &Path, target: &TargetFile, (light, layers): (&Light, &LayerPlan)) -> Self {
+    fn at(path: &Path, expected: Expected<'_>) -> Self {
+        let Expected { target, light, layers, .. } = expected;
         let Ok(found) = path.metadata() else { return Self::Nothing };
         // Reading something other than a file, such as a pipe, might wait for ever.
         if !found.is_file() {
@@ -113,8 +145,18 @@ impl Found {
         let limits = Limits::memory(bytes);
         let pool = FramePool::default();
         match open(path).and_then(|file| read_chosen(file, path, (&limits, &pool), &choice)) {
-            Ok(_) => Self::Complete,
+            Ok(file) => Self::by(&file.metadata, expected),
             Err(error) => Self::unreadable(error),
+        }
+    }
+
+    /// Judges a whole picture by what its file says of how it was made. One that says nothing may be of another program, or of
+    /// a format that has no room for it: it counts as complete.
+    fn by(metadata: &Metadata, Expected { origin, .. }: Expected<'_>) -> Self {
+        let parts = metadata.origin().zip(origin).map(|(found, expected)| differences(found, expected));
+        match parts {
+            Some(parts) if !parts.is_empty() => Self::Otherwise(parts),
+            _ => Self::Complete,
         }
     }
 
@@ -128,6 +170,24 @@ impl Found {
             other => other.to_string(),
         })
     }
+}
+
+/// Returns the error about an output that was made by other settings.
+fn otherwise(path: &Path, parts: &[String]) -> ConvertError {
+    let told = parts.iter().map(|part| match part.as_str() {
+        "geometry" => "geometry (projections, size, orientation or path)",
+        "filter" => "filter",
+        "colour" => "colours, samples or layers",
+        _ => "inputs",
+    });
+    let told = told.collect::<Vec<_>>().join("; other ");
+    failed_as(
+        Code::Remade,
+        format!(
+            "{RESUME}: {} was made with other {told}; give what made it, name other outputs, or make all again with {OVERWRITE}",
+            path.display()
+        ),
+    )
 }
 
 /// Describes a finding that differs from the expectation.

@@ -51,7 +51,8 @@ pub struct Metadata {
     /// Orientation by TIFF's and Exif's tag 274, 2 to 8, by which the stored pixels were turned or mirrored when the file
     /// was read; `None` for no change. Written files need none.
     pub orientation: Option<u16>,
-    /// Name of the program that wrote the file.
+    /// Name of the program that wrote the file. Written files name this library, and where it was added by
+    /// [`Metadata::with_origin`], how they were made.
     pub software: Option<String>,
     /// Description of the stored codes where those that are read are others, such as "of 4 bits".
     pub rescaled: Option<String>,
@@ -87,6 +88,22 @@ impl Metadata {
     /// name both primaries and transfer function.
     pub fn colour_space(&self) -> Option<String> {
         colour_name(self.primaries.as_ref(), self.transfer.as_ref())
+    }
+
+    /// Returns the metadata of a picture that says how it was made, in ASCII, where its format names the program that wrote it.
+    #[must_use]
+    pub fn with_origin(self, origin: &str) -> Self {
+        Self { software: Some(format!("{SOFTWARE} ({origin})")), ..self }
+    }
+
+    /// Returns how a picture was made, if this library wrote it with such words.
+    pub fn origin(&self) -> Option<&str> {
+        self.software.as_deref()?.strip_prefix(SOFTWARE)?.strip_prefix(" (")?.strip_suffix(')')
+    }
+
+    /// Returns the name of the program to write.
+    pub(crate) fn software_to_write(&self) -> &str {
+        self.software.as_deref().filter(|_| self.origin().is_some()).unwrap_or(SOFTWARE)
     }
 
     /// Returns whether the pixels are those of sRGB.

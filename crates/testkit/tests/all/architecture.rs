@@ -29,7 +29,7 @@ const ROOMS: [Room; 14] = [
 ];
 
 /// The rooms of `cosmorama-convert`, lowest floor first.
-const CONVERT_ROOMS: [Room; 11] = [
+const CONVERT_ROOMS: [Room; 12] = [
     ("diagnostic", &[]),
     ("source", &["diagnostic"]),
     ("packing", &["diagnostic"]),
@@ -41,6 +41,7 @@ const CONVERT_ROOMS: [Room; 11] = [
     ("job", &["diagnostic", "source", "settings", "detect", "input", "target", "colour"]),
     ("engine", &["diagnostic", "source", "packing", "settings", "detect", "input", "target", "colour", "job"]),
     ("conversion", &["diagnostic", "source", "settings", "input", "target", "job", "engine"]),
+    ("verify", &["diagnostic", "source", "colour", "job", "conversion"]),
 ];
 
 /// Crates whose rooms have floors.

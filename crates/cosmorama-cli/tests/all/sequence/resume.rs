@@ -84,6 +84,37 @@ fn resume_knows_its_own_outputs_in_every_format() {
     crate::bench::assert_says(&bench.fail(2, &args), &["--resume", "builtin:direction-map", "--overwrite"]);
 }
 
+#[test]
+fn frames_by_other_settings_or_of_other_inputs_are_no_part_of_it() {
+    for end in ["png", "exr", "tif", "jpg", "hdr"] {
+        let bench = Bench::new();
+        for frame in 1..=3 {
+            bench.save(&format!("sky_{frame}.png"), &picture(frame, 64, 32));
+        }
+        let out = format!("out_#.{end}");
+        let args = ["convert", "sky_#.png", &out, "--to", "fisheye", "--size", "16", "--from", "equirect"];
+        bench.succeed(&args);
+        let resume = [&args[..], &["--resume"]].concat();
+        let report: Value = serde_json::from_str(&bench.succeed(&[&resume[..], &["--json"]].concat())).unwrap();
+        assert_eq!((&report["frames"], &report["skipped"]), (&0.into(), &3.into()), "{end}: {report}");
+        for (more, part) in [
+            (["--yaw", "20"], "other geometry"),
+            (["--filter", "point"], "other filter"),
+            (["--background", "red"], "other colours"),
+        ] {
+            let told = bench.fail(1, &[&resume[..], &more].concat());
+            assert_says(&told, &["--resume", &format!("out_1.{end} was made with"), part, "-y"]);
+        }
+        bench.save("sky_2.png", &picture(7, 64, 32));
+        let told = bench.fail(1, &resume);
+        assert_says(&told, &[&format!("out_2.{end} was made with other inputs")]);
+        // A frame of another number, in its place.
+        bench.save("sky_2.png", &picture(2, 64, 32));
+        std::fs::copy(bench.path(&format!("out_3.{end}")), bench.path(&format!("out_1.{end}"))).unwrap();
+        assert_says(&bench.fail(1, &resume), &[&format!("out_1.{end} was made with other inputs")]);
+    }
+}
+
 /// Makes a picture; what is made is kept when it is asked for again.
 #[track_caller]
 fn resumed(bench: &Bench, args: &[&str]) {

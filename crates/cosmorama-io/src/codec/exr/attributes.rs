@@ -9,7 +9,7 @@ use exr::meta::header::LayerAttributes;
 use super::colour;
 use super::reader::MARK;
 use crate::codec::interface::Source;
-use crate::metadata::{Attribute, LARGEST_ATTRIBUTE, SOFTWARE};
+use crate::metadata::{Attribute, LARGEST_ATTRIBUTE};
 use crate::{Carried, EnvMap, Format, IoError, Metadata};
 
 /// Greatest number of bytes of a name, by the format.
@@ -113,7 +113,7 @@ pub(super) fn written(metadata: &Metadata) -> LayerAttributes {
             EnvMap::Cube => Some(EnvironmentMap::Cube),
             EnvMap::GlCube => None,
         }),
-        software_name: Some(Text::from(SOFTWARE)),
+        software_name: Some(Text::from(metadata.software_to_write())),
         white_luminance: metadata.white_luminance,
         other: other.collect(),
         ..LayerAttributes::default()

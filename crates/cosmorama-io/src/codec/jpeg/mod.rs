@@ -85,7 +85,8 @@ impl Codec for Jpeg {
         encoder.write_image(samples, width.into(), height.into(), colour).map_err(|error| fail(&error))?;
         let size = (image.width(), image.height());
         let metadata = &options.metadata;
-        let exif = metadata.carried.exif.as_ref().and_then(|exif| exif.block_to_write(size, metadata.is_srgb()));
+        let exif = metadata.carried.exif.clone().or_else(|| metadata.origin().map(|_| Exif::empty()));
+        let exif = exif.and_then(|exif| exif.block_to_write(size, metadata));
         let exif = exif.map_or_else(Vec::new, |block| segment(b"Exif\0\0", &block));
         let packet = metadata.packet_to_write(size);
         let packet =

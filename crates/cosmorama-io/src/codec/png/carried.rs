@@ -117,9 +117,12 @@ pub(super) fn write(
     for TextChunk { kind, data } in metadata.carried.texts.iter().filter(|text| !is_remark(text)) {
         writer.write_chunk(ChunkType(*kind), data)?;
     }
+    if metadata.origin().is_some() {
+        writer.write_chunk(tEXt, format!("Software\0{}", metadata.software_to_write()).as_bytes())?;
+    }
     for remark in &metadata.remarks {
         writer.write_chunk(tEXt, format!("{}\0{}", remark.name, remark.text).as_bytes())?;
     }
-    let exif = metadata.carried.exif.as_ref().and_then(|exif| exif.block_to_write(size, metadata.is_srgb()));
+    let exif = metadata.carried.exif.as_ref().and_then(|exif| exif.block_to_write(size, metadata));
     exif.map_or(Ok(()), |block| writer.write_chunk(eXIf, &block))
 }

@@ -67,7 +67,7 @@ impl Codec for Hdr {
             return Err(IoError::write(path, "Radiance HDR holds RGB floats"));
         };
         let mut encode = || {
-            write!(output, "#?RADIANCE\nSOFTWARE=cosmorama\n")?;
+            write!(output, "#?RADIANCE\nSOFTWARE={}\n", options.metadata.software_to_write())?;
             let mut remarks = options.metadata.remarks.iter();
             remarks.try_for_each(|remark| writeln!(output, "{}={}", remark.name, remark.text))?;
             write!(output, "{}FORMAT=32-bit_rle_rgbe\n\n", line_of(&options.metadata))?;

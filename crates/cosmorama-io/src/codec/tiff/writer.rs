@@ -11,7 +11,6 @@ use tiff::tags::{PhotometricInterpretation, SampleFormat, Tag};
 
 use super::carried;
 use super::reader::ICC_PROFILE;
-use crate::metadata::SOFTWARE;
 use crate::{Compression, IoError, Metadata};
 
 pub(crate) fn write(
@@ -75,11 +74,11 @@ where
     let (width, height) = (u32::try_from(image.width())?, u32::try_from(image.height())?);
     let size = (image.width(), image.height());
     let exif = how.metadata.carried.exif.as_ref();
-    let fields = exif.map(|exif| exif.to_write(size, how.metadata.is_srgb())).unwrap_or_default();
+    let fields = exif.map(|exif| exif.to_write(size, how.metadata)).unwrap_or_default();
     let places = carried::write_directories(&mut encoder, &fields)?;
     let mut file = encoder.new_image::<Pixel<S, CHANNELS>>(width, height)?;
     let tags = file.encoder();
-    tags.write_tag(Tag::Software, SOFTWARE)?;
+    tags.write_tag(Tag::Software, how.metadata.software_to_write())?;
     carried::write_tags(tags, how.metadata, (&fields, &places), size)?;
     if image.channels().has_alpha() {
         let kind: u16 = if image.alpha_mode() == AlphaMode::Premultiplied { 1 } else { 2 };

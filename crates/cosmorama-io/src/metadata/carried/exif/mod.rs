@@ -9,6 +9,7 @@ use std::io::Cursor;
 use ::exif::experimental::Writer;
 use ::exif::{Context, Error, Field, In, Reader, Tag, Value};
 
+use crate::Metadata;
 use rules::Fate;
 pub(crate) use value::{of_stored, stored};
 
@@ -121,8 +122,13 @@ impl Exif {
         (Self::of_fields(&kept), untrue)
     }
 
+    /// Makes metadata without a field.
+    pub(crate) fn empty() -> Self {
+        Self { block: Vec::new() }
+    }
+
     /// Returns the fields to write for a picture of this size.
-    pub(crate) fn to_write(&self, (width, height): (usize, usize), is_srgb: bool) -> Vec<Field> {
+    pub(crate) fn to_write(&self, (width, height): (usize, usize), metadata: &Metadata) -> Vec<Field> {
         let mut fields = self.fields();
         let mut add = |tag: Tag, value: Value| fields.push(Field { tag, ifd_num: In::PRIMARY, value });
         for (tag, pixels) in [(Tag::PixelXDimension, width), (Tag::PixelYDimension, height)] {
@@ -131,14 +137,14 @@ impl Exif {
             }
         }
         // Any other space is "uncalibrated"; tags of colours describe it.
-        add(Tag::ColorSpace, Value::Short(vec![if is_srgb { 1 } else { 0xffff }]));
-        add(Tag::Software, Value::Ascii(vec![crate::metadata::SOFTWARE.into()]));
+        add(Tag::ColorSpace, Value::Short(vec![if metadata.is_srgb() { 1 } else { 0xffff }]));
+        add(Tag::Software, Value::Ascii(vec![metadata.software_to_write().into()]));
         fields
     }
 
     /// Returns the block to write for a picture of this size.
-    pub(crate) fn block_to_write(&self, size: (usize, usize), is_srgb: bool) -> Option<Vec<u8>> {
-        Self::of_fields(&self.to_write(size, is_srgb)).map(|exif| exif.block)
+    pub(crate) fn block_to_write(&self, size: (usize, usize), metadata: &Metadata) -> Option<Vec<u8>> {
+        Self::of_fields(&self.to_write(size, metadata)).map(|exif| exif.block)
     }
 
     /// Returns the size of the block in bytes.

@@ -1,0 +1,54 @@
+use std::num::NonZeroU64;
+use std::path::PathBuf;
+
+use clap::{Args, ValueHint};
+use cosmorama_io::FrameList;
+use cosmorama_spec::{MemorySize, Size};
+
+use super::convert::frame_list;
+use super::parse::progress::ProgressStyle;
+use super::with_examples;
+
+/// Example commands in its help.
+pub(super) const EXAMPLES: [&str; 3] = [
+    "cosmorama verify 'dome_####.png'",
+    "cosmorama verify 'dome_####.png' --frames 1-50000 --size 4096 --json",
+    "cosmorama verify 'dome_####.exr' --sheet sheet.png --every 100",
+];
+
+/// Find frames of a sequence that are missing, damaged, unlike the others, black or frozen.
+///
+/// Every frame is read to its end. Told are frames without a file, files that are no whole picture, pictures of another size, of other
+/// channels or another depth, those made by other settings, black ones, those that equal the frame before, and flashes: single frames far from both neighbours.
+/// With a fault the exit code is 1, and the last line lists all frames to make again.
+#[derive(Debug, Args)]
+#[command(help_template = with_examples(&EXAMPLES))]
+pub(crate) struct VerifyArgs {
+    /// Names of the frames, with ####, @@@@ or %04d where their numbers stand
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub(crate) pattern: String,
+    /// Frames that there should be: 1-10 or 1-3,5,7-20:2 [default: first to last]
+    #[arg(long, value_name = "LIST", value_parser = frame_list, allow_hyphen_values = true)]
+    pub(crate) frames: Option<FrameList>,
+    /// Size that they should have [default: that of most]
+    #[arg(long, value_name = "WxH|N", allow_hyphen_values = true)]
+    pub(crate) size: Option<Size>,
+    /// Write a contact sheet: small pictures, row by row
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) sheet: Option<PathBuf>,
+    /// Show every Nth frame on the sheet
+    #[arg(long, value_name = "N", default_value = "1", requires = "sheet", allow_negative_numbers = true)]
+    pub(crate) every: NonZeroU64,
+    /// Replace an existing sheet
+    #[arg(short = 'y', long, requires = "sheet")]
+    pub(crate) overwrite: bool,
+    /// Memory for decoded frames: 500M, 8G or 50% [default: 75% of free]
+    #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
+    pub(crate) memory: Option<MemorySize>,
+    /// How to tell what is going on, on standard error
+    #[arg(long, value_enum, value_name = "STYLE", default_value_t = ProgressStyle::Auto)]
+    pub(crate) progress: ProgressStyle,
+    /// Print the same as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}

@@ -1,0 +1,119 @@
+use std::ops::ControlFlow;
+use std::process::ExitCode;
+
+use anyhow::Result;
+use cosmorama_convert::{
+    Disk, Fault, MemoryBudget, Observer, SheetLayout, Stop, Verification, Verified, check_sheet, refuse_existing,
+};
+use cosmorama_io::{Format, FrameList};
+use serde_json::{Value, json};
+
+use super::write_picture;
+use crate::args::VerifyArgs;
+use crate::console::Console;
+use crate::failure::usage;
+use crate::progress::Progress;
+
+/// Verifies a sequence, and reports its faults.
+pub(super) fn run(args: &VerifyArgs, console: &Console) -> Result<ExitCode> {
+    let format = args.sheet.as_deref().map(Format::from_extension).transpose();
+    let format = format.map_err(|error| usage(error.to_string()))?;
+    if let Some(sheet) = &args.sheet {
+        check_sheet(&args.pattern, sheet)?;
+        if !args.overwrite {
+            refuse_existing(std::iter::once(sheet.as_path()))?;
+        }
+    }
+    let verification = Verification {
+        pattern: &args.pattern,
+        frames: args.frames.clone(),
+        size: args.size,
+        memory: MemoryBudget::new(args.memory),
+        sheet: args.sheet.as_ref().map(|_| SheetLayout { every: args.every.get() }),
+    };
+    let mut watch = Watch { args, progress: None };
+    let verified = verification.run(&Disk, &mut watch)?;
+    watch.progress.iter().for_each(Progress::finish);
+    if let (Some(path), Some(format), Some(sheet)) = (&args.sheet, format, &verified.sheet) {
+        write_picture((path, format), sheet, console)?;
+    }
+    let text =
+        if args.json { serde_json::to_string_pretty(&json_of(args, &verified))? + "\n" } else { text_of(&verified) };
+    console.print(&text)?;
+    Ok(if verified.faults.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// Observer that shows how many frames have been read.
+struct Watch<'a> {
+    args: &'a VerifyArgs,
+    progress: Option<Progress>,
+}
+
+impl Observer for Watch<'_> {
+    fn begin(&mut self, frames: usize) {
+        self.progress = Some(Progress::new(self.args.progress, frames));
+    }
+
+    fn frame_done(&mut self, frame: Option<u64>) -> ControlFlow<Stop> {
+        self.progress.iter_mut().for_each(|progress| progress.frame_done(frame));
+        ControlFlow::Continue(())
+    }
+}
+
+/// Returns the list of faults, a line for each kind or damaged frame.
+fn text_of(verified: &Verified) -> String {
+    let mut lines: Vec<(String, Vec<u64>)> = Vec::new();
+    for of in &verified.faults {
+        for fault in &of.faults {
+            let told = told(fault);
+            match lines.iter_mut().find(|(line, _)| *line == told) {
+                Some((_, frames)) => frames.push(of.frame),
+                None => lines.push((told, vec![of.frame])),
+            }
+        }
+    }
+    let line = |(told, frames): (String, Vec<u64>)| format!("{told}: {}\n", FrameList::new(frames));
+    let list: String = lines.into_iter().map(line).collect();
+    match verified.faults.len() {
+        0 => format!("{} frames are whole and alike\n", verified.frames),
+        faulty => format!("{list}{faulty} of {} frames have faults: {}\n", verified.frames, verified.faulty()),
+    }
+}
+
+fn told(fault: &Fault) -> String {
+    match fault {
+        Fault::Missing => "missing".to_owned(),
+        Fault::Damaged(reason) => format!("damaged ({reason})"),
+        Fault::Size { found: (width, height), expected } => format!("of size {width}x{height} instead of {expected}"),
+        Fault::Kind(kind) => format!("unlike most, {kind}"),
+        Fault::Settings => "made by other settings than most".to_owned(),
+        Fault::Black => "black".to_owned(),
+        Fault::Frozen => "equal to the frame before".to_owned(),
+        Fault::Flash => "a flash, far from both neighbours".to_owned(),
+    }
+}
+
+fn json_of(args: &VerifyArgs, verified: &Verified) -> Value {
+    let fault = |frame: u64, fault: &Fault| {
+        let mut found = json!({ "frame": frame, "fault": fault.name() });
+        match fault {
+            Fault::Damaged(reason) => found["reason"] = json!(reason),
+            Fault::Size { found: (width, height), expected } => {
+                found["found"] = json!(format!("{width}x{height}"));
+                found["expected"] = json!(expected.to_string());
+            }
+            Fault::Kind(kind) => found["found"] = json!(kind),
+            Fault::Missing | Fault::Settings | Fault::Black | Fault::Frozen | Fault::Flash => {}
+        }
+        found
+    };
+    let faults = verified.faults.iter().flat_map(|of| of.faults.iter().map(|one| fault(of.frame, one)));
+    json!({
+        "pattern": args.pattern,
+        "frames": verified.frames,
+        "whole": verified.frames - verified.faults.len(),
+        "faults": faults.collect::<Vec<_>>(),
+        "frames_with_faults": verified.faulty().to_string(),
+        "sheet": args.sheet.as_ref().map(|sheet| sheet.display().to_string()),
+    })
+}

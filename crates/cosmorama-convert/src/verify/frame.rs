@@ -1,0 +1,104 @@
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::Path;
+
+use cosmorama::raster::{EncodedImage, Image, Rgba, Samples};
+use cosmorama_io::{IoError, Limits};
+use cosmorama_spec::TransferName;
+use rayon::prelude::*;
+
+use super::sheet;
+use crate::colour::InputTransfer;
+use crate::job::settings_of;
+use crate::source::{Files, read};
+
+/// What is kept of a frame that was read.
+#[derive(Clone, Debug)]
+pub(super) struct Frame {
+    pub(super) number: u64,
+    pub(super) found: Found,
+}
+
+/// Content in the place of a frame.
+#[derive(Clone, Debug)]
+pub(super) enum Found {
+    Nothing,
+    /// A file that is no whole picture, in words.
+    Damage(String),
+    Picture(Picture),
+}
+
+/// Summary of a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Picture {
+    pub(super) size: (usize, usize),
+    /// Channels and samples, in words.
+    pub(super) kind: String,
+    /// Digests of the settings by which it was made, if its file tells them.
+    pub(super) settings: Option<String>,
+    /// Hash of all samples.
+    pub(super) hash: u64,
+    /// Whether no sample of a colour differs from 0.
+    pub(super) is_black: bool,
+    /// Mean colours of [`CELLS`] × [`CELLS`] parts, as codes of sRGB.
+    pub(super) cells: Vec<[u8; 3]>,
+    pub(super) thumbnail: Option<Image<Rgba>>,
+}
+
+/// Number of parts along each side by which pictures are compared.
+pub(super) const CELLS: usize = 16;
+
+impl Frame {
+    /// Reads a frame.
+    pub(super) fn read(files: &dyn Files, (number, path): (u64, &Path), limits: &Limits, shows: bool) -> Self {
+        let found = match read(files, path, limits) {
+            Ok(file) => {
+                let transfer = InputTransfer::new(&TransferName::Auto, None).of(file.image.depth(), &file.metadata);
+                let settings = file.metadata.origin().and_then(settings_of).map(str::to_owned);
+                Found::Picture(Picture { settings, ..Picture::of(&file.image, &file.image.to_light(&transfer), shows) })
+            }
+            Err(IoError::Open { source, .. }) if source.kind() == std::io::ErrorKind::NotFound => Found::Nothing,
+            Err(error) => Found::Damage(error.to_string()),
+        };
+        Self { number, found }
+    }
+
+    /// Returns the picture, if there is a whole one.
+    pub(super) fn picture(&self) -> Option<&Picture> {
+        match &self.found {
+            Found::Picture(picture) => Some(picture),
+            Found::Nothing | Found::Damage(_) => None,
+        }
+    }
+
+    /// Returns the small picture of a frame that is to be shown, if there is a whole one.
+    pub(super) fn thumbnail(&self) -> Option<&Image<Rgba>> {
+        self.picture().and_then(|picture| picture.thumbnail.as_ref())
+    }
+}
+
+impl Picture {
+    fn of(image: &EncodedImage, light: &Image<Rgba>, shows: bool) -> Self {
+        let is_dark = |pixel: &Rgba| pixel.0[..3].iter().all(|sample| *sample == 0.0);
+        Self {
+            size: (image.width(), image.height()),
+            kind: format!("{}, depth {}", image.channels(), image.depth()),
+            settings: None,
+            hash: hash(image),
+            is_black: light.pixels().par_iter().all(is_dark),
+            cells: sheet::reduced(light, [CELLS; 2]).pixels().iter().map(sheet::codes).collect(),
+            thumbnail: shows.then(|| sheet::thumbnail(light)),
+        }
+    }
+}
+
+/// Returns a hash of a picture's samples.
+fn hash(image: &EncodedImage) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    match image.samples() {
+        Samples::U8(samples) => samples.hash(&mut hasher),
+        Samples::U16(samples) => samples.hash(&mut hasher),
+        Samples::Half(samples) => samples.iter().for_each(|sample| sample.to_bits().hash(&mut hasher)),
+        Samples::Float(samples) => samples.iter().for_each(|sample| sample.to_bits().hash(&mut hasher)),
+    }
+    hasher.finish()
+}
