@@ -21,6 +21,12 @@ use clap::Parser;
 static ALLOCATOR: large_pages::LargePages = large_pages::LargePages;
 
 fn main() -> ExitCode {
+    failure::report_panics();
+    std::panic::catch_unwind(run).unwrap_or(ExitCode::FAILURE)
+}
+
+/// Runs the program as it was called.
+fn run() -> ExitCode {
     large_pages::give_back_pictures();
     let args = match args::Args::try_parse() {
         Ok(args) => args,

@@ -3,6 +3,7 @@
 mod arguments;
 mod no_projection;
 mod other_words;
+mod panic;
 mod spec_key;
 mod unknown_option;
 mod unknown_verb;
@@ -13,6 +14,7 @@ use cosmorama_convert::ConvertError;
 use thiserror::Error;
 
 pub(crate) use arguments::report_arguments;
+pub(crate) use panic::report_panics;
 
 use crate::console::{Console, in_options, say};
 
