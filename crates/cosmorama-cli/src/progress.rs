@@ -104,6 +104,7 @@ impl Progress {
             (Form::Json, _) => {
                 let (work, frame) = match work {
                     Work::Render(frame) => ("render", frame),
+                    Work::Filters => ("filters", None),
                     _ => ("plan", None),
                 };
                 let line = serde_json::json!({
@@ -162,6 +163,7 @@ impl std::fmt::Display for Advance {
         match work {
             Work::Render(None) => f.write_str("picture")?,
             Work::Render(Some(frame)) => write!(f, "frame {frame}")?,
+            Work::Filters => f.write_str("filters")?,
             _ => f.write_str("geometry")?,
         }
         match work {

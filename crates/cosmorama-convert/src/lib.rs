@@ -22,8 +22,8 @@ mod verify;
 
 pub use colour::{InputTransfer, LayerRules, ThinAlpha, contents};
 pub use conversion::{
-    Checked, Explanation, ExplanationSettings, Observer, PathExplanation, Quiet, Radiance, Report, Stop, Work,
-    WorldHarmonics, WorldLight, WorldSuns, threads,
+    Checked, Explanation, ExplanationSettings, FilterReport, FilterTrial, FilterTrials, Observer, PathExplanation,
+    Quiet, Radiance, Report, Stop, Work, WorldHarmonics, WorldLight, WorldSuns, threads,
 };
 pub use detect::{Continuity, FacePixels, GivenFaces, Likely, damage_of, light_of, likely};
 pub use diagnostic::{Code, ConvertError, Diagnostic, Message, Outcome, Part, Remedy, Result, Setting, Severity};

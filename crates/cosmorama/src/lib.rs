@@ -6,6 +6,7 @@ pub mod circle;
 pub mod compare;
 pub mod explain;
 pub mod filter;
+pub mod laboratory;
 pub mod layout;
 pub mod lighting;
 pub mod motion;

@@ -11,25 +11,23 @@ pub(crate) mod light;
 mod parse;
 mod settings;
 mod shade;
-mod verify;
 
 use clap::{Arg, Command, CommandFactory, Parser, Subcommand};
 
 use cosmorama_spec::SpecKind;
 
-pub(crate) use compare::{CompareArgs, Region};
+pub(crate) use compare::{CompareArgs, FiltersArgs, Region};
 pub(crate) use convert::{ConvertArgs, OutputArgs, builtins};
-pub(crate) use demo::DemoArgs;
+pub(crate) use demo::{DemoArgs, FiguresArgs};
 pub(crate) use explain::ExplainArgs;
 pub(crate) use help::{CompletionsArgs, HelpArgs, LISTS, ManArgs, SPEC_TOPIC};
-pub(crate) use info::InfoArgs;
+pub(crate) use info::{InfoArgs, VerifyArgs};
 pub(crate) use light::{
     BrdfArgs, DeployArgs, DiffuseArgs, HarmonicsArgs, LightArgs, LightVerb, MapArgs, Method, PresetName, SpecularArgs,
     SunArgs, TableArgs, Unit,
 };
 pub(crate) use parse::progress::ProgressStyle;
 pub(crate) use shade::{BackgroundName, CameraName, MaterialName, ObjectName, Point, RefractName, ShadeArgs};
-pub(crate) use verify::VerifyArgs;
 
 /// Example commands in the program's own help.
 const EXAMPLES: [&str; 3] = [
@@ -39,7 +37,7 @@ const EXAMPLES: [&str; 3] = [
 ];
 
 /// All verbs with their examples.
-const VERBS: [(&str, &[&str]); 11] = [
+const VERBS: [(&str, &[&str]); 13] = [
     ("demo", &demo::EXAMPLES),
     ("convert", &convert::EXAMPLES),
     ("light", &light::EXAMPLES),
@@ -47,7 +45,9 @@ const VERBS: [(&str, &[&str]); 11] = [
     ("info", &info::EXAMPLES),
     ("explain", &explain::EXAMPLES),
     ("compare", &compare::EXAMPLES),
-    ("verify", &verify::EXAMPLES),
+    ("verify", &info::VERIFY_EXAMPLES),
+    ("filters", &compare::FILTERS_EXAMPLES),
+    ("figures", &demo::FIGURES_EXAMPLES),
     ("completions", &help::COMPLETIONS_EXAMPLES),
     ("man", &help::MAN_EXAMPLES),
     ("help", &help::EXAMPLES),
@@ -90,6 +90,10 @@ pub(crate) enum Verb {
     Compare(CompareArgs),
     /// Find frames of a sequence that are missing, damaged, unlike the others, black or frozen
     Verify(VerifyArgs),
+    /// Compare filters on one conversion: error, aliasing, blur and cost of each
+    Filters(Box<FiltersArgs>),
+    /// Remake the figures of the papers from our own pictures
+    Figures(FiguresArgs),
     /// Print a shell's completion script
     Completions(CompletionsArgs),
     /// Print the manual, or write its pages into a folder

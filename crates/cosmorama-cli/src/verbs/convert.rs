@@ -34,17 +34,29 @@ pub(super) fn run(args: ConvertArgs, console: &mut Console) -> Result<ExitCode> 
 pub(super) fn convert(conversion: Conversion, style: ProgressStyle, console: &Console) -> Result<Report> {
     let checked = Conversion { unfinished: console.unfinished.clone(), ..conversion }.check();
     console.tell_all(&checked);
-    let mut watch = Watch { console, style, progress: None };
+    let mut watch = Watch::new(console, style);
     let report = checked.result?.run(&mut watch)?;
-    watch.progress.iter().for_each(Progress::finish);
+    watch.finish();
     Ok(report)
 }
 
 /// Observer that reports a conversion on standard error.
-struct Watch<'a> {
+pub(super) struct Watch<'a> {
     console: &'a Console,
     style: ProgressStyle,
     progress: Option<Progress>,
+}
+
+impl<'a> Watch<'a> {
+    /// Watches work that has not begun.
+    pub(super) fn new(console: &'a Console, style: ProgressStyle) -> Self {
+        Self { console, style, progress: None }
+    }
+
+    /// Clears the bar from the terminal.
+    pub(super) fn finish(&self) {
+        self.progress.iter().for_each(Progress::finish);
+    }
 }
 
 impl Observer for Watch<'_> {

@@ -39,6 +39,8 @@ pub(crate) fn run(verb: Verb, console: &mut Console) -> Result<ExitCode> {
         Verb::Explain(args) => explain::run(*args, console),
         Verb::Compare(args) => compare::run(&args, console),
         Verb::Verify(args) => verify::run(&args, console),
+        Verb::Filters(args) => compare::filters::run(*args, console),
+        Verb::Figures(args) => demo::figures::run(&args, console),
         Verb::Completions(args) => help::completions(&args, console),
         Verb::Man(args) => help::man(&args, console),
         Verb::Help(args) => help::help(&args, console),

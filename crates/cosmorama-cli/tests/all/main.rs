@@ -19,6 +19,7 @@ mod faces {
 mod filter {
     mod channels;
     mod labels;
+    mod laboratory;
     mod light;
     mod light_balance;
     mod pyramids;

@@ -3,6 +3,7 @@
 mod advance;
 mod check;
 mod explanation;
+mod filters;
 mod observer;
 mod report;
 mod run;
@@ -11,6 +12,7 @@ mod world_light;
 pub use check::Checked;
 pub use check::threads;
 pub use explanation::{Explanation, ExplanationSettings, PathExplanation};
+pub use filters::{FilterReport, FilterTrial, FilterTrials};
 pub use observer::{Observer, Quiet, Stop, Work};
 pub use report::Report;
 pub use world_light::{Radiance, WorldHarmonics, WorldLight, WorldSuns};

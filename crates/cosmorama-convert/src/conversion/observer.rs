@@ -14,6 +14,8 @@ pub enum Work {
     Plan,
     /// Rendering the pictures of a frame; `None` for one without a number.
     Render(Option<u64>),
+    /// Measuring filters.
+    Filters,
 }
 
 /// Callbacks of a running conversion, all on the thread that runs it.

@@ -95,7 +95,7 @@ impl Conversion {
 }
 
 impl WorldLight {
-    fn of(settings: Conversion, diagnostics: &mut Vec<Diagnostic>) -> Result<Self> {
+    pub(super) fn of(settings: Conversion, diagnostics: &mut Vec<Diagnostic>) -> Result<Self> {
         let content = Content::of(&settings)?;
         let pool = threads(settings.limits.threads)?;
         let job = pool.install(|| ConvertJob::resolve(&settings, (content, Purpose::Light), diagnostics))?;
@@ -109,6 +109,16 @@ impl WorldLight {
         }
         let files = files_read(&job.input, &settings.geometry);
         Ok(Self { settings, job, pool, files })
+    }
+
+    /// Returns the threads that read it.
+    pub(super) fn pool(&self) -> &ThreadPool {
+        &self.pool
+    }
+
+    /// Returns its pixels per radian, of the finest view.
+    pub(super) fn pixels_per_radian(&self) -> f64 {
+        self.job.input.pixels_per_radian()
     }
 
     /// Returns the files that are read, by their real paths.

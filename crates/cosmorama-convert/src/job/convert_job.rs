@@ -19,7 +19,7 @@ use super::memory_needs::gathered_bytes;
 use super::options::{check_file_options, filter};
 use crate::colour::{LayerPlan, Light, check_choice, check_labels, check_light};
 use crate::detect::unless_damaged;
-use crate::diagnostic::{Code, Diagnostic, IN_PATH, MISSING, MOTION, PATH, Result, SCALE, SHUTTER, YAW, usage};
+use crate::diagnostic::{Code, Diagnostic, FILTER, IN_PATH, MISSING, MOTION, PATH, Result, SCALE, SHUTTER, YAW, usage};
 use crate::input::Input;
 use crate::input::spec_files::st_map::settled;
 use crate::job::Outputs;
@@ -279,6 +279,9 @@ impl ConvertJob {
             return Ok(());
         }
         let (coverage, worlds) = Coverage::check(input, whole, &shots, filter, self.missing, warnings)?;
+        for world in &worlds {
+            filter.check(world).map_err(|error| usage(format!("{FILTER}: {error}")))?;
+        }
         memory.check_frame(input, target)?;
         let prepared = target.views.iter().map(|view| {
             let world = &worlds[view.world(worlds.len())];

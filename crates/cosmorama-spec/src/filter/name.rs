@@ -7,13 +7,13 @@ use super::names;
 use crate::WordError;
 
 /// A filter by name: `ewa`, `ewa-pyramid`, `point`, `bilinear`, `reference[:samples=N]`, or one of the literature, such as
-/// `summed-area`; for labels, `labels:nearest` or `labels:vote`.
+/// `summed-area` or `repeated-integration[:order=N]`; for labels, `labels:nearest` or `labels:vote`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FilterName(pub FilterKind);
 
 impl FilterName {
     /// All names with a line of help, in the order of the help.
-    pub const NAMES: [(&str, &str); 14] = names::FILTERS;
+    pub const NAMES: [(&str, &str); 16] = names::FILTERS;
 }
 
 impl fmt::Display for FilterName {
@@ -25,6 +25,9 @@ impl fmt::Display for FilterName {
             FilterKind::Bilinear => f.write_str("bilinear"),
             FilterKind::Labels(LabelRule::Nearest) => f.write_str("labels:nearest"),
             FilterKind::Labels(LabelRule::Vote) => f.write_str("labels:vote"),
+            FilterKind::Classic(Classic::RepeatedIntegration { order }) if order != ORDER => {
+                write!(f, "repeated-integration:order={order}")
+            }
             FilterKind::Classic(classic) => f.write_str(classic_name(classic)),
             FilterKind::Reference { samples: SAMPLES } => f.write_str("reference"),
             FilterKind::Reference { samples } => write!(f, "reference:samples={samples}"),
@@ -38,6 +41,8 @@ fn classic_name(classic: Classic) -> &'static str {
         Classic::MipMap(MipChoice::Trilinear) => "mipmap",
         Classic::MipMap(MipChoice::Nearest) => "mipmap:levels=nearest",
         Classic::SummedArea => "summed-area",
+        Classic::RepeatedIntegration { .. } => "repeated-integration",
+        Classic::TwoPass => "two-pass",
         Classic::Catmull => "catmull",
         Classic::BlinnNewell => "blinn-newell",
         Classic::FeibushLevoyCook => "feibush-levoy-cook",
@@ -50,11 +55,20 @@ fn classic_name(classic: Classic) -> &'static str {
 /// Default number of sub-samples along a pixel's side.
 const SAMPLES: usize = 4;
 
+/// Default order of repeated integration.
+const ORDER: u32 = 2;
+
 impl FromStr for FilterName {
     type Err = WordError;
 
     fn from_str(text: &str) -> Result<Self, WordError> {
         let samples = |text: &str| text.parse().ok().filter(|samples| (1..=64).contains(samples));
+        if let Some(("repeated-integration", order)) = text.split_once(":order=") {
+            return match order.parse() {
+                Ok(order @ 1..=4) => Ok(Self(FilterKind::Classic(Classic::RepeatedIntegration { order }))),
+                _ => Err(WordError::Parameter(format!("order={order}: expected a number from 1 to 4"))),
+            };
+        }
         match text.split_once(":samples=") {
             Some(("reference", count)) => match samples(count) {
                 Some(samples) => Ok(Self(FilterKind::Reference { samples })),
@@ -90,13 +104,14 @@ mod tests {
         assert!(refused("ewa-pyramids").contains("did you mean 'ewa-pyramid'?"));
         assert!(refused("sharp").starts_with("unknown filter 'sharp'; there are ewa, ewa-pyramid"));
         assert!(refused("point:samples=3").contains("only reference takes a key"));
+        assert!(refused("repeated-integration:order=9").contains("from 1 to 4"));
         assert!(refused("reference:samples=99").contains("from 1 to 64"));
     }
 
     #[test]
     fn every_name_is_parsed_and_printed() {
         let names = FilterName::NAMES.map(|(name, _)| name);
-        for name in names.into_iter().chain(["labels:nearest", "labels:vote"]) {
+        for name in names.into_iter().chain(["labels:nearest", "labels:vote", "repeated-integration:order=3"]) {
             assert_eq!(name.parse::<FilterName>().unwrap().to_string(), name);
         }
     }

@@ -3,7 +3,7 @@
 use crate::error::{WordError, WordKind, nearest};
 
 /// Filters, each with a line of help.
-pub(super) const FILTERS: [(&str, &str); 14] = [
+pub(super) const FILTERS: [(&str, &str); 16] = [
     ("ewa", "Elliptical weighted average of all texels under a pixel"),
     ("ewa-pyramid", "The same from smaller copies: bounded time at any shrink, about 40 dB from ewa"),
     ("point", "The texel under a pixel's centre"),
@@ -12,10 +12,12 @@ pub(super) const FILTERS: [(&str, &str); 14] = [
     ("mipmap", "Williams' trilinear pyramid of squares"),
     ("mipmap:levels=nearest", "Squares of the nearest level (Dungan, Stenger, Sutty)"),
     ("summed-area", "Crow's rectangles by a table of sums"),
+    ("repeated-integration", "Splines by sums of sums (:order=N, 1 to 4, default 2)"),
     ("catmull", "Exact areas under the pixel, evenly weighted"),
     ("blinn-newell", "A pyramid over the parallelogram of a pixel"),
     ("feibush-levoy-cook", "Texels weighed on the screen by a table"),
     ("gangnet", "Samples of the screen in a round kernel"),
+    ("two-pass", "Rows first and then columns, each of one dimension"),
     ("ewa:paper", "EWA as printed in 1986: a Gaussian, finite differences"),
     ("ewa:integer", "EWA as printed, in integers"),
 ];
@@ -55,7 +57,7 @@ const KERNEL_WORDS: [(&str, &str); 14] = [
 ];
 
 /// Other programs' words for filters, each with our name.
-const FILTER_WORDS: [(&str, &str); 13] = [
+const FILTER_WORDS: [(&str, &str); 15] = [
     ("nearest", "point"),
     ("near", "point"),
     ("neighbor", "point"),
@@ -65,6 +67,8 @@ const FILTER_WORDS: [(&str, &str); 13] = [
     ("mip", "mipmap"),
     ("trilinear", "mipmap"),
     ("sat", "summed-area"),
+    ("perlin", "repeated-integration"),
+    ("2-pass", "two-pass"),
     ("pyramid", "ewa-pyramid"),
     ("supersampling", "reference"),
     ("supersample", "reference"),
@@ -78,7 +82,7 @@ pub(super) fn no_filter(text: &str) -> WordError {
     let (names, word) = (FILTERS.map(|(name, _)| name), text.to_owned());
     if names.contains(&name) {
         let keys = "only reference takes a key, samples=N, as in reference:samples=8; others by a second word are \
-                    mipmap:levels=nearest, ewa:paper and ewa:integer";
+                    mipmap:levels=nearest, ewa:paper, ewa:integer and repeated-integration:order=N";
         return WordError::Parameter(format!("'{text}': {keys}"));
     }
     if let Some(kernel) = meaning(&KERNEL_WORDS, name) {

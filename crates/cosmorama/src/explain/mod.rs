@@ -6,7 +6,7 @@ mod magnification;
 mod ownership;
 mod path;
 mod report;
-mod sheet;
+pub(crate) mod sheet;
 mod survey;
 mod template;
 mod text;

@@ -46,13 +46,28 @@ impl Prepared for PreparedReference<'_> {
         self.world
     }
 
+    fn reads(&self, footprint: &Footprint) -> usize {
+        let Some(footprint) = bounded(footprint) else { return 0 };
+        let mut count = 0;
+        self.square(&footprint).for_each_sample(|_, _, at| {
+            count += at.map_or(0, |direction| lookup::reads(self.world, direction));
+        });
+        count
+    }
+
     fn average(&self, footprint: &Footprint) -> Rgba {
         let Some(footprint) = bounded(footprint) else { return Rgba::TRANSPARENT };
+        let average = self.square(&footprint).average(self.light);
+        average.or_else(|| look(self.world, footprint.direction, self.light)).unwrap_or(Rgba::TRANSPARENT)
+    }
+}
+
+impl PreparedReference<'_> {
+    /// Returns the square of sub-samples around a footprint's middle.
+    fn square<'a>(&'a self, footprint: &'a Footprint) -> KernelSquare<'a, impl Fn(f64, f64) -> Option<Direction>> {
         let in_front = |there: &Direction| there.dot(footprint.direction) > 0.0;
-        let look_at = |x: f64, y: f64| footprint.direction_at(x, y).filter(in_front);
-        let kernel = KernelSquare::new(self.world, &self.filter, Some(&footprint), look_at);
-        let average = kernel.average(self.light).or_else(|| look(self.world, footprint.direction, self.light));
-        average.unwrap_or(Rgba::TRANSPARENT)
+        let look_at = move |x: f64, y: f64| footprint.direction_at(x, y).filter(in_front);
+        KernelSquare::new(self.world, &self.filter, Some(footprint), look_at)
     }
 }
 

@@ -93,6 +93,14 @@ impl FilterSettings {
         }
     }
 
+    /// Checks that the filter loses no precision over a world.
+    ///
+    /// # Errors
+    /// When it would: see [`Classic::check`].
+    pub fn check(&self, world: &World) -> Result<(), LightError> {
+        if let FilterKind::Classic(classic) = self.kind { classic.check(world) } else { Ok(()) }
+    }
+
     /// Returns a kernel that reaches all texels that are read for a pixel.
     pub(crate) fn reaching_kernel(&self) -> Kernel {
         let kernel = self.kernel;

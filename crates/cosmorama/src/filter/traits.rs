@@ -66,6 +66,10 @@ pub trait Prepared: Send + Sync {
     /// direction. A footprint as wide as that half gives nearly its mean.
     fn average(&self, footprint: &Footprint) -> Rgba;
 
+    /// Returns the number of texels, or of entries in tables of them, that an average of a footprint reads. A texel counts
+    /// as often as it is read.
+    fn reads(&self, footprint: &Footprint) -> usize;
+
     /// Returns the part of a footprint's parallelogram that some view shows, from 0 to 1. It is measured by 8 × 8
     /// directions.
     fn covered(&self, footprint: &Footprint) -> f32 {

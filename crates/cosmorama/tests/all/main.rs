@@ -4,6 +4,7 @@
 mod explain;
 mod harmonic_presets;
 mod harmonics;
+mod laboratory;
 mod lighting;
 mod projections;
 mod published_points;
@@ -13,6 +14,7 @@ mod filter {
     mod aliasing;
     mod bound;
     mod classic;
+    mod definitions;
     mod footprint;
     mod labels;
     mod position;

@@ -11,7 +11,7 @@ use crate::source::{code_of, crates_folder, rust_files};
 type Room = (&'static str, &'static [&'static str]);
 
 /// The rooms of the library, lowest floor first, and the rooms that each may use.
-const ROOMS: [Room; 14] = [
+const ROOMS: [Room; 15] = [
     ("sphere", &[]),
     ("projection", &["sphere"]),
     ("raster", &[]),
@@ -26,6 +26,7 @@ const ROOMS: [Room; 14] = [
     ("circle", &["raster"]),
     ("compare", &["raster"]),
     ("explain", &["sphere", "projection", "raster", "camera", "layout", "world", "filter", "render"]),
+    ("laboratory", &["raster", "camera", "world", "filter", "render", "compare", "explain", "sphere"]),
 ];
 
 /// The rooms of `cosmorama-convert`, lowest floor first.
@@ -40,7 +41,7 @@ const CONVERT_ROOMS: [Room; 12] = [
     ("colour", &["diagnostic", "settings", "input", "target"]),
     ("job", &["diagnostic", "source", "settings", "detect", "input", "target", "colour"]),
     ("engine", &["diagnostic", "source", "packing", "settings", "detect", "input", "target", "colour", "job"]),
-    ("conversion", &["diagnostic", "source", "settings", "input", "target", "job", "engine"]),
+    ("conversion", &["diagnostic", "source", "settings", "input", "target", "colour", "job", "engine"]),
     ("verify", &["diagnostic", "source", "colour", "job", "conversion"]),
 ];
 
@@ -63,6 +64,7 @@ const ALL: &[&str] = &[
     "circle",
     "compare",
     "explain",
+    "laboratory",
 ];
 
 /// A crate, our own crates that it may depend on, and the library's rooms that it may use.

@@ -1,4 +1,5 @@
 mod animation;
+pub(super) mod figures;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -166,18 +167,22 @@ fn quoted(word: &str) -> String {
 
 fn draw_unfolded(folder: &Path, faces: &[PartialFace], target: &View, console: &Console) -> Result<()> {
     let start = Instant::now();
-    let world = World::new(faces.iter().map(|partial| (partial.face.name().to_owned(), partial.view.clone())))?;
-    let needs = Needs::of(&world, std::slice::from_ref(target), &FilterSettings::DEFAULT, Accuracy::Exact);
-    let underlay =
-        |(view, partial): (usize, &PartialFace)| Underlay { view, href: format!("{FACES}/{}.png", partial.face) };
-    let underlays: Vec<Underlay> = faces.iter().enumerate().map(underlay).collect();
-    let svg = Figures { world: &world, target }.unfolded(&needs, &underlays);
-    for file in diagram::draw(folder, UNFOLDED, &svg, &console.unfinished)? {
+    for file in diagram::draw(folder, UNFOLDED, &unfolded(faces, target)?, &console.unfinished)? {
         file.appear()?;
     }
     let [vector, raster] = diagram::files(folder, UNFOLDED);
     tell(console, &vector, "the unfolded cube with the frame's field of view", start)?;
     tell(console, &raster, "the same as pixels", start)
+}
+
+/// Draws the unfolded cube with the faces' pictures.
+fn unfolded(faces: &[PartialFace], target: &View) -> Result<String> {
+    let world = World::new(faces.iter().map(|partial| (partial.face.name().to_owned(), partial.view.clone())))?;
+    let needs = Needs::of(&world, std::slice::from_ref(target), &FilterSettings::DEFAULT, Accuracy::Exact);
+    let underlay =
+        |(view, partial): (usize, &PartialFace)| Underlay { view, href: format!("{FACES}/{}.png", partial.face) };
+    let underlays: Vec<Underlay> = faces.iter().enumerate().map(underlay).collect();
+    Ok(Figures { world: &world, target }.unfolded(&needs, &underlays))
 }
 
 fn tell(console: &Console, path: &Path, what: &str, start: Instant) -> Result<()> {

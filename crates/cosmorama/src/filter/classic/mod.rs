@@ -9,18 +9,19 @@ mod ewa_integer;
 mod ewa_paper;
 mod feibush_levoy_cook;
 mod gangnet;
-mod mipmap;
+mod prefiltered;
 mod region;
 mod screen_kernel;
-mod summed_area;
+mod two_pass;
 
-pub use mipmap::MipChoice;
+pub use prefiltered::MipChoice;
 
 use super::Kernel;
 use super::ewa_pyramid::Levels;
 use super::traits::{Filter, Prepared, SetupCost};
 use crate::raster::Rgba;
 use crate::world::{Light, LightError, World};
+use prefiltered::{PreparedIntegrals, PreparedMipMap, PreparedSummedArea, bits_of};
 use region::PreparedRegion;
 use screen_kernel::ScreenKernel;
 
@@ -31,6 +32,12 @@ pub enum Classic {
     MipMap(MipChoice),
     /// Rectangles by a table of sums (Crow 1984).
     SummedArea,
+    /// Smooth splines over an upright box, by differences in a picture that is integrated `order` times (Perlin; Heckbert
+    /// 1986).
+    RepeatedIntegration {
+        /// Number of boxes that are applied: 1 is a rectangle, 2 a pyramid, 3 nearly a Gaussian.
+        order: u32,
+    },
     /// Exact areas under the pixel's parallelogram, evenly weighted (Catmull 1974).
     Catmull,
     /// A pyramid over the parallelogram of the pixels around (Blinn & Newell 1976).
@@ -39,6 +46,8 @@ pub enum Classic {
     FeibushLevoyCook,
     /// Samples of the screen mapped to the texels, in a round kernel (Gangnet, Perny & Coueignoux 1982).
     Gangnet,
+    /// Two passes of one dimension each, along the rows and along the columns (Catmull & Smith 1980).
+    TwoPass,
     /// EWA as printed, with a Gaussian and finite differences (Greene & Heckbert 1986).
     EwaPaper,
     /// EWA in integers, as the paper proposes.
@@ -46,18 +55,39 @@ pub enum Classic {
 }
 
 impl Classic {
-    /// All filters, in the order of the paper's table.
-    pub const ALL: [Self; 9] = [
+    /// All filters, in the order of the paper's table; repeated integration is of order 2.
+    pub const ALL: [Self; 11] = [
         Self::MipMap(MipChoice::Nearest),
         Self::MipMap(MipChoice::Trilinear),
         Self::SummedArea,
+        Self::RepeatedIntegration { order: 2 },
         Self::Catmull,
         Self::BlinnNewell,
         Self::FeibushLevoyCook,
         Self::Gangnet,
+        Self::TwoPass,
         Self::EwaPaper,
         Self::EwaInteger,
     ];
+
+    /// Bits that each texel's light must keep.
+    const LEAST_BITS: u32 = 24;
+
+    /// Checks that the filter loses no precision over a world.
+    ///
+    /// # Errors
+    /// For repeated integration over a view that is too large for its order.
+    pub fn check(self, world: &World) -> Result<(), LightError> {
+        let Self::RepeatedIntegration { order } = self else { return Ok(()) };
+        let lost = world.sources().iter().find(|source| bits_of(source, order) < Self::LEAST_BITS);
+        lost.map_or(Ok(()), |source| {
+            Err(LightError::LosesPrecision {
+                order,
+                size: [source.columns(), source.view.height()],
+                bits: bits_of(source, order),
+            })
+        })
+    }
 
     /// A kernel that reaches all texels that any of the filters reads for a pixel: the coarser of two levels has texels of
     /// two pixels, and is interpolated over one more.
@@ -67,8 +97,10 @@ impl Classic {
     pub(crate) fn of_texels<'w>(self, world: &'w World, light: &'w [Rgba]) -> Box<dyn Prepared + 'w> {
         let kernel = ScreenKernel::new;
         match self {
-            Self::MipMap(choice) => Box::new(mipmap::PreparedMipMap { levels: Levels::new(world, light), choice }),
-            Self::SummedArea => Box::new(summed_area::PreparedSummedArea::new(world, light)),
+            Self::MipMap(choice) => Box::new(PreparedMipMap { levels: Levels::new(world, light), choice }),
+            Self::SummedArea => Box::new(PreparedSummedArea::new(world, light)),
+            Self::RepeatedIntegration { order } => Box::new(PreparedIntegrals::new(world, light, order)),
+            Self::TwoPass => over(world, light, two_pass::TwoPass(kernel())),
             Self::Catmull => over(world, light, catmull::Catmull),
             Self::BlinnNewell => over(world, light, blinn_newell::BlinnNewell),
             Self::FeibushLevoyCook => over(world, light, feibush_levoy_cook::FeibushLevoyCook(kernel())),
@@ -82,6 +114,7 @@ impl Classic {
 impl Filter for Classic {
     fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, LightError> {
         light.check(world)?;
+        self.check(world)?;
         Ok(self.of_texels(world, light.texels()))
     }
 
@@ -89,11 +122,13 @@ impl Filter for Classic {
         let texels = world.texel_count();
         match self {
             Self::MipMap(_) => SetupCost { texels, bytes: Levels::bytes(world) },
-            Self::SummedArea => SetupCost { texels, bytes: summed_area::PreparedSummedArea::bytes(world) },
+            Self::SummedArea => SetupCost { texels, bytes: PreparedSummedArea::bytes(world) },
+            Self::RepeatedIntegration { order } => SetupCost { texels, bytes: PreparedIntegrals::bytes(world, *order) },
             Self::Catmull
             | Self::BlinnNewell
             | Self::FeibushLevoyCook
             | Self::Gangnet
+            | Self::TwoPass
             | Self::EwaPaper
             | Self::EwaInteger => SetupCost::default(),
         }

@@ -98,27 +98,43 @@ pub(super) struct PreparedRegion<'w, R> {
     pub(super) region: R,
 }
 
-impl<R: Region> Prepared for PreparedRegion<'_, R> {
-    fn world(&self) -> &World {
-        self.world
-    }
-
-    fn average(&self, footprint: &Footprint) -> Rgba {
-        let Some(footprint) = bounded(footprint) else { return Rgba::TRANSPARENT };
-        let (mut sum, mut weights) = ([0f64; 4], 0f64);
+impl<R: Region> PreparedRegion<'_, R> {
+    /// Calls `visit` with each texel that counts, by its place in the world's light, and with its weight.
+    fn for_each_texel(&self, footprint: &Footprint, mut visit: impl FnMut(usize, f64)) {
         for source in self.world.sources() {
-            let Some(seen) = reached(source, &footprint) else { continue };
+            let Some(seen) = reached(source, footprint) else { continue };
             self.region.texels(&seen, |[i, j], weight| {
                 let Some(column) = source.column(i) else { return };
                 let texel = j as usize * source.view.width() + column as usize;
                 // Views that show one direction share it, so that nothing counts twice where they meet.
                 let weight = weight * f64::from(source.solid_angles[texel]);
                 if weight != 0.0 {
-                    add(&mut sum, self.light[source.offset + texel], weight);
-                    weights += weight;
+                    visit(source.offset + texel, weight);
                 }
             });
         }
+    }
+}
+
+impl<R: Region> Prepared for PreparedRegion<'_, R> {
+    fn world(&self) -> &World {
+        self.world
+    }
+
+    fn reads(&self, footprint: &Footprint) -> usize {
+        let mut count = 0;
+        let footprint = bounded(footprint);
+        footprint.iter().for_each(|footprint| self.for_each_texel(footprint, |_, _| count += 1));
+        count
+    }
+
+    fn average(&self, footprint: &Footprint) -> Rgba {
+        let Some(footprint) = bounded(footprint) else { return Rgba::TRANSPARENT };
+        let (mut sum, mut weights) = ([0f64; 4], 0f64);
+        self.for_each_texel(&footprint, |texel, weight| {
+            add(&mut sum, self.light[texel], weight);
+            weights += weight;
+        });
         let mean = || Rgba(sum.map(|channel| (channel / weights) as f32));
         if weights > 0.0 { mean() } else { look(self.world, footprint.direction, self.light).unwrap_or_default() }
     }

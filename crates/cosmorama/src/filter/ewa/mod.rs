@@ -70,6 +70,10 @@ impl Prepared for PreparedEwa<'_> {
         self.world
     }
 
+    fn reads(&self, footprint: &Footprint) -> usize {
+        bounded(footprint).map_or(0, |footprint| self.average.reads(self.world, &footprint))
+    }
+
     fn average(&self, footprint: &Footprint) -> Rgba {
         let views = (self.world, self.pinholes.as_ref());
         let average = |footprint| self.average.of(views, self.light, &footprint, None);
@@ -102,6 +106,11 @@ impl Averager {
     ) -> Rgba {
         let direct = self.direct.as_ref().and_then(|direct| direct.average(views, light, footprint, view));
         direct.unwrap_or_else(|| self.by_taps(views.0, light, footprint))
+    }
+
+    /// Returns the number of texels of a footprint's average.
+    pub(crate) fn reads(&self, world: &World, footprint: &Footprint) -> usize {
+        self.taps.lend(world, footprint, |taps| taps.as_slice().len())
     }
 
     /// Averages a footprint by a list of taps, which works anywhere: at seams, poles and rims, too.

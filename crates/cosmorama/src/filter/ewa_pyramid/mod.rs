@@ -111,18 +111,26 @@ impl Prepared for PreparedPyramid<'_> {
         self.levels.world
     }
 
+    fn reads(&self, footprint: &Footprint) -> usize {
+        let Some(footprint) = bounded(footprint) else { return 0 };
+        let levels = parts(self.number(&footprint).0);
+        levels.map(|(level, _)| self.average.reads(self.levels.get(level).0, &footprint)).sum()
+    }
+
     fn average(&self, footprint: &Footprint) -> Rgba {
         let Some(footprint) = bounded(footprint) else { return Rgba::TRANSPARENT };
         let (number, view) = self.number(&footprint);
         let mut sum = Rgba::TRANSPARENT;
-        let finer = number as usize;
-        for level in finer..=finer + 1 {
-            let part = part(number, level);
-            if part > 0.0 {
-                let (world, light) = self.levels.get(level);
-                sum += self.average.of((world, self.pinholes[level].as_ref()), light, &footprint, view) * part;
-            }
+        for (level, part) in parts(number) {
+            let (world, light) = self.levels.get(level);
+            sum += self.average.of((world, self.pinholes[level].as_ref()), light, &footprint, view) * part;
         }
         sum
     }
+}
+
+/// Returns the levels that give a part, and their parts.
+fn parts(number: f32) -> impl Iterator<Item = (usize, f32)> {
+    let finer = number as usize;
+    (finer..=finer + 1).map(move |level| (level, part(number, level))).filter(|(_, part)| *part > 0.0)
 }

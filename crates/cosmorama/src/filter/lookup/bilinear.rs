@@ -1,6 +1,6 @@
 use crate::camera::Footprint;
-use crate::filter::reference;
 use crate::filter::traits::{Filter, Prepared, SetupCost, bounded};
+use crate::filter::{lookup, reference};
 use crate::raster::Rgba;
 use crate::world::{Light, LightError, World};
 
@@ -27,6 +27,10 @@ struct PreparedBilinear<'w> {
 impl Prepared for PreparedBilinear<'_> {
     fn world(&self) -> &World {
         self.world
+    }
+
+    fn reads(&self, footprint: &Footprint) -> usize {
+        lookup::reads(self.world, footprint.direction)
     }
 
     fn average(&self, footprint: &Footprint) -> Rgba {

@@ -76,6 +76,14 @@ impl Prepared for PreparedLabels<'_> {
         self.world
     }
 
+    fn reads(&self, footprint: &Footprint) -> usize {
+        match (&self.taps, bounded(footprint)) {
+            (Some(taps), Some(footprint)) => taps.lend(self.world, &footprint, |taps| taps.as_slice().len()),
+            (Some(_), None) => 0,
+            (None, _) => 1,
+        }
+    }
+
     fn average(&self, footprint: &Footprint) -> Rgba {
         let Some(footprint) = bounded(footprint) else { return Rgba::TRANSPARENT };
         match &self.taps {

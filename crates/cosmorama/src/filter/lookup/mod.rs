@@ -41,6 +41,13 @@ pub(crate) fn bilinear(world: &World, direction: Direction, mut tap: impl FnMut(
     });
 }
 
+/// Returns the number of texels that [`bilinear`] reads.
+pub(crate) fn reads(world: &World, direction: Direction) -> usize {
+    let mut count = 0;
+    bilinear(world, direction, |_, _| count += 1);
+    count
+}
+
 fn beyond_edge(world: &World, source: &Source, (i, j): (i64, i64), weight: f64, tap: &mut impl FnMut(u32, f64)) {
     let centre = PixelPoint::new(i as f64 + 0.5, j as f64 + 0.5);
     let Some(direction) = source.view.direction(centre) else { return };

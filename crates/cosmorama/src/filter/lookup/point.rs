@@ -29,6 +29,12 @@ impl Prepared for PreparedPoint<'_> {
         self.world
     }
 
+    fn reads(&self, footprint: &Footprint) -> usize {
+        let mut count = 0;
+        nearest(self.world, footprint.direction, |_, _| count += 1);
+        count
+    }
+
     fn average(&self, footprint: &Footprint) -> Rgba {
         let mut found = Rgba::TRANSPARENT;
         if let Some(footprint) = bounded(footprint) {

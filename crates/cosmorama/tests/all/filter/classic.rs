@@ -1,7 +1,7 @@
-//! Filters of the literature, each against what its paper defines, where a view's mapping is all but affine.
+//! Filters of the literature, against one another and across the edges of views; `definitions.rs` holds each against its own.
 
 use cosmorama::camera::{Footprint, PixelPoint, View};
-use cosmorama::filter::{Classic, Filter, MipChoice, Prepared};
+use cosmorama::filter::{Classic, Filter};
 use cosmorama::raster::Rgba;
 use cosmorama::sphere::CubeFace;
 use cosmorama::world::{Light, World};
@@ -44,89 +44,6 @@ fn cases() -> impl Iterator<Item = (PixelPoint, [DVec2; 2])> {
     })
 }
 
-fn average(classic: Classic, of: impl Fn(&dyn Prepared, &View, &Light)) {
-    let world = narrow();
-    let light = noise(&world);
-    let prepared = classic.prepare(&world, &light).expect("light of the world");
-    of(&*prepared, &world.sources()[0].view, &light);
-}
-
-/// Averages the texels under many points of the screen, by weight.
-fn sampled(place: PixelPoint, [x, y]: [DVec2; 2], reach: f64, weight: impl Fn(f64, f64) -> f64) -> f64 {
-    const COUNT: usize = 800;
-    let at = |k: usize| ((k as f64 + 0.5) / COUNT as f64 * 2.0 - 1.0) * reach;
-    let (mut sum, mut weights) = (0.0, 0.0);
-    for (s, t) in (0..COUNT).flat_map(|i| (0..COUNT).map(move |j| (at(i), at(j)))) {
-        let texel = DVec2::new(place.x, place.y) + x * s + y * t;
-        sum += weight(s, t) * noise_at(texel.x as usize, texel.y as usize);
-        weights += weight(s, t);
-    }
-    sum / weights
-}
-
-#[test]
-fn catmull_is_the_mean_of_the_parallelogram() {
-    average(Classic::Catmull, |prepared, view, _| {
-        for (place, sides) in cases() {
-            let found = f64::from(prepared.average(&footprint(view, place, sides)).0[0]);
-            let expected = sampled(place, sides, 0.5, |_, _| 1.0);
-            assert!((found - expected).abs() < 2e-3, "{place:?}, {sides:?}: {found} for {expected}");
-        }
-    });
-}
-
-#[test]
-fn summed_area_is_the_mean_of_the_rectangle_around() {
-    average(Classic::SummedArea, |prepared, view, _| {
-        for (place, sides) in cases() {
-            let found = f64::from(prepared.average(&footprint(view, place, sides)).0[0]);
-            let half = (sides[0].abs() + sides[1].abs()).max(DVec2::ONE);
-            let rectangle = [DVec2::new(half.x, 0.0), DVec2::new(0.0, half.y)];
-            let expected = sampled(place, rectangle, 0.5, |_, _| 1.0);
-            assert!((found - expected).abs() < 2e-3, "{place:?}, {sides:?}: {found} for {expected}");
-        }
-    });
-}
-
-#[test]
-fn a_level_of_a_mip_map_is_a_mean_of_squares() {
-    for choice in [MipChoice::Nearest, MipChoice::Trilinear] {
-        average(Classic::MipMap(choice), |prepared, view, _| {
-            // In the middle of a texel of level 3, with derivatives of 8 texels: exactly that texel.
-            let sides = [DVec2::new(8.0, 0.0), DVec2::new(0.0, 3.0)];
-            let found = f64::from(prepared.average(&footprint(view, PixelPoint::new(44.0, 60.0), sides)).0[0]);
-            let square = (0..64).map(|k| noise_at(40 + k % 8, 56 + k / 8)).sum::<f64>() / 64.0;
-            assert!((found - square).abs() < 1e-4, "{choice:?}: {found} for {square}");
-        });
-    }
-}
-
-/// An impulse shows the weight of its texel: a tent along each side of the parallelogram.
-#[test]
-fn blinn_and_newell_weigh_by_a_pyramid() {
-    let world = narrow();
-    let view = &world.sources()[0].view;
-    let impulse = [64, 60];
-    let texels =
-        light_by_texel(&world, |_, i, j, _| if [i, j] == impulse { Rgba::opaque(1.0, 1.0, 1.0) } else { Rgba::BLACK });
-    let light = Light::new(&world, texels).expect("a texel for each");
-    let prepared = Classic::BlinnNewell.prepare(&world, &light).expect("light of the world");
-    let sides = [DVec2::new(6.0, 1.0), DVec2::new(-2.0, 5.0)];
-    for (dx, dy) in [(0.0, 0.0), (1.3, 0.4), (-2.0, 3.1), (4.0, -1.0), (-7.0, 2.0)] {
-        let place = PixelPoint::new(64.5 + dx, 60.5 + dy);
-        let weight = |i: usize, j: usize| {
-            let offset = DVec2::new(i as f64 + 0.5 - place.x, j as f64 + 0.5 - place.y);
-            let determinant = sides[0].perp_dot(sides[1]);
-            let (s, t) = (offset.perp_dot(sides[1]) / determinant, sides[0].perp_dot(offset) / determinant);
-            (1.0 - s.abs()).max(0.0) * (1.0 - t.abs()).max(0.0)
-        };
-        let whole: f64 = (0..SIDE * SIDE).map(|k| weight(k % SIDE, k / SIDE)).sum();
-        let found = f64::from(prepared.average(&footprint(view, place, sides)).0[0]);
-        let expected = weight(impulse[0], impulse[1]) / whole;
-        assert!((found - expected).abs() < 1e-5, "({dx}, {dy}): {found} for {expected}");
-    }
-}
-
 /// All three weigh by one table over the squared distance on the screen.
 #[test]
 fn feibush_levoy_cook_and_both_printed_ewas_agree() {
@@ -140,19 +57,6 @@ fn feibush_levoy_cook_and_both_printed_ewas_agree() {
         assert!((flc - paper).abs() < 1e-4, "{place:?}, {sides:?}: {flc} and {paper}");
         assert!((integer - paper).abs() < 1.0 / 255.0, "{place:?}, {sides:?}: {integer} and {paper}");
     }
-}
-
-#[test]
-fn gangnet_is_a_round_kernel_of_interpolated_samples() {
-    average(Classic::Gangnet, |prepared, view, _| {
-        for (place, sides) in cases() {
-            let sides = sides.map(|side| side * 4.0);
-            let found = f64::from(prepared.average(&footprint(view, place, sides)).0[0]);
-            let gaussian = |s: f64, t: f64| if s * s + t * t < 1.0 { (-2.0 * (s * s + t * t)).exp() } else { 0.0 };
-            let expected = sampled(place, sides, 1.0, gaussian);
-            assert!((found - expected).abs() < 0.02, "{place:?}, {sides:?}: {found} for {expected}");
-        }
-    });
 }
 
 /// A smooth world shows no step where views meet, by whatever filter.

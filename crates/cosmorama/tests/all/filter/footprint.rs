@@ -248,7 +248,8 @@ fn light_of_another_world_is_refused() {
     for kind in kinds() {
         assert_eq!(filter(kind).prepare(&world, &light).err(), Some(LightError::WrongViews));
         let setup = filter(kind).setup(&world);
-        let keeps = |classic| matches!(classic, Classic::MipMap(_) | Classic::SummedArea);
+        let keeps =
+            |classic| matches!(classic, Classic::MipMap(_) | Classic::SummedArea | Classic::RepeatedIntegration { .. });
         let expected = match kind {
             FilterKind::EwaPyramid => true,
             FilterKind::Classic(classic) => keeps(classic),

@@ -1,3 +1,5 @@
+pub(super) mod filters;
+
 use std::path::Path;
 use std::process::ExitCode;
 

@@ -5,12 +5,12 @@ use clap::{Args, ValueHint};
 use cosmorama_io::FrameList;
 use cosmorama_spec::{MemorySize, Size};
 
-use super::convert::frame_list;
-use super::parse::progress::ProgressStyle;
-use super::with_examples;
+use crate::args::convert::frame_list;
+use crate::args::parse::progress::ProgressStyle;
+use crate::args::with_examples;
 
 /// Example commands in its help.
-pub(super) const EXAMPLES: [&str; 3] = [
+pub(in crate::args) const VERIFY_EXAMPLES: [&str; 3] = [
     "cosmorama verify 'dome_####.png'",
     "cosmorama verify 'dome_####.png' --frames 1-50000 --size 4096 --json",
     "cosmorama verify 'dome_####.exr' --sheet sheet.png --every 100",
@@ -22,7 +22,7 @@ pub(super) const EXAMPLES: [&str; 3] = [
 /// channels or another depth, those made by other settings, black ones, those that equal the frame before, and flashes: single frames far from both neighbours.
 /// With a fault the exit code is 1, and the last line lists all frames to make again.
 #[derive(Debug, Args)]
-#[command(help_template = with_examples(&EXAMPLES))]
+#[command(help_template = with_examples(&VERIFY_EXAMPLES))]
 pub(crate) struct VerifyArgs {
     /// Names of the frames, with ####, @@@@ or %04d where their numbers stand
     #[arg(value_hint = ValueHint::FilePath)]

@@ -1,8 +1,8 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::region::reached;
 use crate::camera::Footprint;
+use crate::filter::classic::region::reached;
 use crate::filter::reference::look;
 use crate::filter::traits::{Prepared, bounded};
 use crate::raster::Rgba;
@@ -13,7 +13,7 @@ use crate::world::{Source, World};
 /// A rectangle that crosses the edge of a view takes what lies in each view. Texels count by their solid angle. Sums are
 /// f64. A sum over 16384² texels of light up to 1 has 2¹⁴ additions along a column, each rounded by at most 2⁻²⁵ of a
 /// texel: the four look-ups of a rectangle are right to 2⁻⁹ of one texel's light, and to some 2⁻¹⁷ as roundings cancel.
-pub(super) struct PreparedSummedArea<'w> {
+pub(in crate::filter::classic) struct PreparedSummedArea<'w> {
     world: &'w World,
     light: &'w [Rgba],
     tables: Vec<Table>,
@@ -32,13 +32,13 @@ struct Table {
 }
 
 impl<'w> PreparedSummedArea<'w> {
-    pub(super) fn new(world: &'w World, light: &'w [Rgba]) -> Self {
+    pub(in crate::filter::classic) fn new(world: &'w World, light: &'w [Rgba]) -> Self {
         let tables = world.sources().par_iter().map(|source| Table::new(source, &light[source.texels()])).collect();
         Self { world, light, tables }
     }
 
     /// Returns the bytes of all tables.
-    pub(super) fn bytes(world: &World) -> usize {
+    pub(in crate::filter::classic) fn bytes(world: &World) -> usize {
         world.sources().iter().map(|source| (source.columns() + 1) * (source.view.height() + 1)).sum::<usize>()
             * size_of::<Sums>()
     }
@@ -92,6 +92,16 @@ impl Table {
 impl Prepared for PreparedSummedArea<'_> {
     fn world(&self) -> &World {
         self.world
+    }
+
+    fn reads(&self, footprint: &Footprint) -> usize {
+        /// Entries around each corner of a rectangle.
+        const ENTRIES: usize = 4 * 4;
+        let footprint = bounded(footprint);
+        let reached = |footprint: &Footprint| {
+            self.world.sources().iter().filter(|source| reached(source, footprint).is_some()).count()
+        };
+        ENTRIES * footprint.as_ref().map_or(0, reached)
     }
 
     fn average(&self, footprint: &Footprint) -> Rgba {

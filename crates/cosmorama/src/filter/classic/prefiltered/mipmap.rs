@@ -17,9 +17,9 @@ pub enum MipChoice {
 
 /// Squares of texels, averaged beforehand. A footprint's longer derivative chooses the level, so that what is narrow one
 /// way is blurred that way.
-pub(super) struct PreparedMipMap<'w> {
-    pub(super) levels: Levels<'w>,
-    pub(super) choice: MipChoice,
+pub(in crate::filter::classic) struct PreparedMipMap<'w> {
+    pub(in crate::filter::classic) levels: Levels<'w>,
+    pub(in crate::filter::classic) choice: MipChoice,
 }
 
 impl PreparedMipMap<'_> {
@@ -36,6 +36,18 @@ impl PreparedMipMap<'_> {
 impl Prepared for PreparedMipMap<'_> {
     fn world(&self) -> &World {
         self.levels.get(0).0
+    }
+
+    fn reads(&self, footprint: &Footprint) -> usize {
+        let Some(footprint) = bounded(footprint) else { return 0 };
+        let level = self.level(&footprint);
+        match self.choice {
+            MipChoice::Nearest => 1,
+            MipChoice::Trilinear => {
+                let levels = level as usize..=level.ceil() as usize;
+                levels.map(|level| lookup::reads(self.levels.get(level).0, footprint.direction)).sum()
+            }
+        }
     }
 
     fn average(&self, footprint: &Footprint) -> Rgba {

@@ -1,6 +1,11 @@
+mod figures;
+
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueHint};
+
+pub(super) use figures::FIGURES_EXAMPLES;
+pub(crate) use figures::FiguresArgs;
 
 use super::convert::LimitArgs;
 use super::with_examples;

@@ -1,7 +1,12 @@
+mod filters;
+
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum, ValueHint};
 use cosmorama_spec::{MemorySize, TransferName};
+
+pub(super) use filters::FILTERS_EXAMPLES;
+pub(crate) use filters::FiltersArgs;
 
 use super::parse::listed;
 use super::parse::number::{distance, factor, finite};

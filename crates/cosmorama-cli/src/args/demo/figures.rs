@@ -1,0 +1,27 @@
+use std::path::PathBuf;
+
+use clap::{Args, ValueHint};
+
+use crate::args::convert::LimitArgs;
+use crate::args::with_examples;
+
+/// Example commands in its help.
+pub(in crate::args) const FIGURES_EXAMPLES: [&str; 2] = ["cosmorama figures figures", "cosmorama figures /tmp/figures -y"];
+
+/// Remake the figures of the papers from our own pictures.
+///
+/// Figures 3 to 9 of Greene & Heckbert's Omnimax paper (1986), and figure 2 of Greene's World Projections (1986), as SVG and PNG:
+/// the unfolded cube, which face gives which pixel, the frame, aliasing, footprints, the paraboloid Q, the kernel, a reflection
+/// cone in Mercator's projection and on a cube. docs/filters.md shows them.
+#[derive(Debug, Args)]
+#[command(help_template = with_examples(&FIGURES_EXAMPLES))]
+pub(crate) struct FiguresArgs {
+    /// Where to write
+    #[arg(value_hint = ValueHint::DirPath)]
+    pub(crate) dir: PathBuf,
+    /// Replace existing files
+    #[arg(short = 'y', long)]
+    pub(crate) overwrite: bool,
+    #[command(flatten)]
+    pub(crate) limits: LimitArgs,
+}

@@ -1,0 +1,71 @@
+//! `filters`: every filter on one conversion.
+
+use crate::bench::{Bench, assert_says};
+use serde_json::Value;
+
+const TARGET: [&str; 4] = ["--to", "perspective:fov=60", "--size", "96"];
+
+fn bench() -> Bench {
+    let bench = Bench::new();
+    bench.faces("face_", 512);
+    bench
+}
+
+fn filters(bench: &Bench, more: &[&str]) -> String {
+    bench.succeed(&[&["filters", "face_{face}.png"], &TARGET[..], more].concat())
+}
+
+#[test]
+fn a_table_of_error_aliasing_blur_and_cost() {
+    let bench = bench();
+    let report: Value =
+        serde_json::from_str(&filters(&bench, &["--only", "ewa,catmull,summed-area,point", "--json"])).unwrap();
+    let of = |name: &str| report["filters"].as_array().unwrap().iter().find(|trial| trial["filter"] == name).unwrap();
+    let number = |name: &str, key: &str| of(name)[key].as_f64().unwrap();
+    assert!(number("ewa", "psnr_to_reference") > number("point", "psnr_to_reference") + 3.0, "{report}");
+    assert!(number("ewa", "aliasing_db") < number("point", "aliasing_db") - 6.0, "{report}");
+    assert!(number("ewa", "edge_width_px") > number("point", "edge_width_px"), "{report}");
+    assert_eq!(number("point", "texels_a_pixel"), 1.0);
+    assert!(of("ewa")["psnr_to_truth"].is_null());
+    assert!(of("summed-area")["setup"]["bytes"].as_u64().unwrap() > 6 * 512 * 512);
+    let csv = filters(&bench, &["--only", "ewa", "--csv"]);
+    let lines: Vec<&str> = csv.lines().collect();
+    assert!(lines.len() == 2 && lines[0].starts_with("filter,reference_dB,") && lines[1].starts_with("ewa,"), "{csv}");
+    assert_eq!(lines[0].matches(',').count(), lines[1].matches(',').count());
+}
+
+#[test]
+fn all_filters_in_one_table_with_crops_side_by_side() {
+    let bench = bench();
+    let table = filters(&bench, &["--output", "lab"]);
+    for (name, _) in cosmorama_spec::FilterName::NAMES {
+        assert!(table.lines().any(|line| line.split_whitespace().next() == Some(name)), "{name}: {table}");
+    }
+    assert!(bench.load("lab/crops.png").height() > 16 * 128);
+    let args = [&["filters", "face_{face}.png"], &TARGET[..], &["--only", "point", "--output", "lab"]].concat();
+    assert_says(&bench.fail(1, &args), &["crops.png", "exist"]);
+}
+
+#[test]
+fn a_direct_render_is_the_truth() {
+    let bench = bench();
+    bench.succeed(&[&["convert", "face_{face}.png", "direct.png"], &TARGET[..]].concat());
+    let report: Value =
+        serde_json::from_str(&filters(&bench, &["--only", "ewa,point", "--truth", "direct.png", "--json"])).unwrap();
+    let psnr = |index: usize| report["filters"][index]["psnr_to_truth"].as_f64().unwrap();
+    // Rounded to 8 bits.
+    assert!(psnr(0) > 50.0 && psnr(1) < 40.0, "{report}");
+    let args = ["filters", "face_{face}.png", "--to", "perspective", "--size", "64", "--truth", "direct.png"];
+    assert_says(&bench.fail(2, &args), &["direct.png", "96x96", "--size"]);
+}
+
+#[test]
+fn what_cannot_be_compared_is_refused() {
+    let bench = bench();
+    let fail = |args: &[&str], parts: &[&str]| assert_says(&bench.fail(2, &[&["filters"], args].concat()), parts);
+    fail(&["builtin:demo", "--to", "fulldome"], &["formula", "convert"]);
+    fail(&["face_{face}.png"], &["--to is missing"]);
+    fail(&["face_{face}.png", "--to", "cube"], &["6 pictures", "one"]);
+    fail(&["face_{face}.png", "--to", "fulldome", "--only", "ewa,sinc"], &["sinc"]);
+    fail(&["face_{face}.png", "--to", "fulldome", "--json", "--csv"], &["--csv"]);
+}

@@ -1,0 +1,69 @@
+use super::pattern::Probe;
+use crate::raster::{Image, Rgba};
+
+/// Distance from an edge, in pixels, within which pixels tell its shape.
+const REACH: f64 = 8.0;
+
+/// Bins a pixel of the edge's shape.
+const BINS: f64 = 8.0;
+
+/// Returns the width over which edges go from 10 % to 90 %: the edge's shape is the mean of all pixels at one distance, as
+/// the slanted-edge method has it (ISO 12233).
+pub(super) fn width(probes: &[Probe], image: &Image<Rgba>) -> Option<f64> {
+    let shape = shape(probes, image)?;
+    let middle = shape.len() / 2;
+    // From the middle outwards, so that ringing farther out is not taken for the edge.
+    let dark = (0..middle).rev().find(|&at| shape[at] < 0.1)?;
+    let bright = (middle..shape.len()).find(|&at| shape[at] > 0.9)?;
+    let low = crossing(dark, shape[dark], shape[dark + 1], 0.1);
+    let high = crossing(bright - 1, shape[bright - 1], shape[bright], 0.9);
+    Some((high - low) / BINS)
+}
+
+/// Returns the mean brightness by distance from an edge, from dark to bright. `None` if no pixel has one of the distances.
+fn shape(probes: &[Probe], image: &Image<Rgba>) -> Option<Vec<f64>> {
+    let count = (2.0 * REACH * BINS) as usize;
+    let mut bins = vec![(0.0, 0usize); count];
+    for probe in probes.iter().filter(|probe| probe.from_edge.abs() < REACH) {
+        let blue = f64::from(image.pixels()[probe.pixel].0[2]);
+        let (brightness, distance) = if probe.rises { (blue, probe.from_edge) } else { (1.0 - blue, probe.from_edge) };
+        let bin = &mut bins[((distance + REACH) * BINS) as usize];
+        *bin = (bin.0 + brightness, bin.1 + 1);
+    }
+    bins.into_iter().map(|(sum, pixels)| (pixels > 0).then(|| sum / pixels as f64)).collect()
+}
+
+/// Returns where a line from one bin to the next reaches a value, in bins.
+fn crossing(bin: usize, from: f64, to: f64, value: f64) -> f64 {
+    bin as f64 + (value - from) / (to - from)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn probes(width: usize, edge: f64) -> Vec<Probe> {
+        let probe = |pixel: usize| Probe {
+            pixel,
+            frequency: 0.0,
+            from_edge: pixel as f64 * 0.01 - edge,
+            rises: true,
+            texels: 1.0,
+        };
+        (0..width).map(probe).collect()
+    }
+
+    #[test]
+    fn a_ramp_is_as_wide_as_it_is() {
+        // From dark to bright over two pixels; 10 % to 90 % of it is 1.6.
+        let at = |i: usize| ((i as f64 * 0.01 - 8.0) / 2.0 + 0.5).clamp(0.0, 1.0) as f32;
+        let image = Image::from_fn(1600, 1, |i, _| Rgba::opaque(0.0, 0.0, at(i)));
+        let width = width(&probes(1600, 8.0), &image).expect("an edge");
+        assert!((width - 1.6).abs() < 0.02, "{width}");
+    }
+
+    #[test]
+    fn without_pixels_there_is_no_edge() {
+        assert_eq!(width(&[], &Image::filled(1, 1, Rgba::BLACK)), None);
+    }
+}

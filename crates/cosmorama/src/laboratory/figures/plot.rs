@@ -1,0 +1,122 @@
+use crate::explain::sheet::drawing::{Anchor, Paint, Point, Rect};
+use crate::explain::sheet::heading::sheet;
+use crate::explain::sheet::theme::{FAINT, HEADER, INK, LABEL, MARGIN, SMALL};
+
+/// Curves over one axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plot {
+    /// Title, and a line under it.
+    pub title: String,
+    /// Line under the title.
+    pub subtitle: String,
+    /// Meaning of the axes: across, and upwards.
+    pub axes: [String; 2],
+    /// Curves.
+    pub series: Vec<Series>,
+}
+
+/// One curve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// Name beside its last point; nothing if it is empty.
+    pub name: String,
+    /// Points, from left to right.
+    pub points: Vec<Point>,
+}
+
+/// Size of the field of the curves on the sheet, and room for numbers and names around it.
+const WIDTH: f64 = 560.0;
+const HEIGHT: f64 = 320.0;
+const LEFT: f64 = 56.0;
+const RIGHT: f64 = 150.0;
+const BELOW: f64 = 48.0;
+
+const COLOURS: [&str; 6] = ["#1f6fb2", "#d1303a", "#2f8f4e", "#8a4fb0", "#c77a1a", "#1d2430"];
+
+impl Plot {
+    /// Draws the curves. Axes span all points, to round numbers.
+    pub fn svg(&self) -> String {
+        let points = || self.series.iter().flat_map(|series| &series.points);
+        let (across, up) = (Ticks::of(points().map(|point| point.0)), Ticks::of(points().map(|point| point.1)));
+        let size = (LEFT + WIDTH + RIGHT + 2.0 * MARGIN, HEADER + HEIGHT + BELOW + MARGIN);
+        let mut drawing = sheet(size, &self.title, &self.subtitle);
+        let frame = Rect { x: MARGIN + LEFT, y: HEADER, width: WIDTH, height: HEIGHT };
+        drawing.rect(frame, Paint::fill("#ffffff"));
+        let place = |(x, y): Point| {
+            (frame.x + across.part(x) * frame.width, frame.y + (1.0 - up.part(y)) * frame.height)
+        };
+        for tick in across.all() {
+            let (x, _) = place((tick, up.first));
+            drawing.polylines([&[(x, frame.y), (x, frame.y + HEIGHT)][..]], Paint::stroke(FAINT, 0.7));
+            drawing.label(&across.text(tick), (x, frame.y + HEIGHT + 16.0), SMALL, Anchor::Middle, INK);
+        }
+        for tick in up.all() {
+            let (_, y) = place((across.first, tick));
+            drawing.polylines([&[(frame.x, y), (frame.x + WIDTH, y)][..]], Paint::stroke(FAINT, 0.7));
+            drawing.label(&up.text(tick), (MARGIN, y + SMALL / 2.0), SMALL, Anchor::Start, INK);
+        }
+        for (series, colour) in self.series.iter().zip(COLOURS.iter().cycle()) {
+            let line: Vec<Point> = series.points.iter().map(|&point| place(point)).collect();
+            drawing.polylines([&line[..]], Paint::stroke(colour, 2.0));
+            if let Some(&(x, y)) = line.last() {
+                drawing.label(&series.name, (x + 8.0, y + SMALL / 2.0), SMALL, Anchor::Start, colour);
+            }
+        }
+        let below = (frame.x + WIDTH / 2.0, frame.y + HEIGHT + 38.0);
+        drawing.label(&self.axes[0], below, LABEL * 0.8, Anchor::Middle, INK);
+        drawing.label(&self.axes[1], (MARGIN, frame.y - 12.0), LABEL * 0.8, Anchor::Start, INK);
+        drawing.rect(frame, Paint::stroke(INK, 1.2));
+        drawing.finish(&self.title)
+    }
+}
+
+/// Round numbers along an axis.
+struct Ticks {
+    first: f64,
+    last: f64,
+    step: f64,
+}
+
+impl Ticks {
+    /// Chooses five to ten steps of 1, 2 or 5 times a power of ten.
+    fn of(values: impl Iterator<Item = f64>) -> Self {
+        let (least, most) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), value| (a.min(value), b.max(value)));
+        if !(most > least) {
+            let only = if least.is_finite() { least } else { 0.0 };
+            return Self { first: only - 1.0, last: only + 1.0, step: 1.0 };
+        }
+        let power = 10f64.powf(((most - least) / 5.0).log10().floor());
+        let step = [1.0, 2.0, 5.0, 10.0].map(|k| k * power).into_iter().find(|step| (most - least) / step <= 8.0);
+        let step = step.unwrap_or(10.0 * power);
+        Self { first: (least / step).floor() * step, last: (most / step).ceil() * step, step }
+    }
+
+    fn part(&self, value: f64) -> f64 {
+        (value - self.first) / (self.last - self.first)
+    }
+
+    fn all(&self) -> impl Iterator<Item = f64> + '_ {
+        let count = ((self.last - self.first) / self.step).round() as usize;
+        (0..=count).map(|k| self.first + k as f64 * self.step)
+    }
+
+    fn text(&self, value: f64) -> String {
+        let decimals = (-self.step.log10()).ceil().max(0.0) as usize;
+        // Adding zero turns −0 into 0.
+        format!("{:.decimals$}", value + 0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn axes_have_round_numbers() {
+        let ticks = Ticks::of([0.03, 0.97].into_iter());
+        assert_eq!(ticks.all().map(|tick| ticks.text(tick)).collect::<Vec<_>>(), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
+        let ticks = Ticks::of([-63.0, -4.0].into_iter());
+        assert_eq!((ticks.first, ticks.last, ticks.step), (-70.0, 0.0, 10.0));
+        assert_eq!(Ticks::of([2.0].into_iter()).all().count(), 3);
+    }
+}

@@ -1,0 +1,117 @@
+//! The filter laboratory: filters on one conversion, measured by error, aliasing, blur and cost.
+//!
+//! PSNR alone mixes two faults. A filter that lets through what a picture cannot hold (aliasing) may score as well as one
+//! that takes away what it could (blur). So [`Laboratory`] measures both apart, on a test pattern in the target's own
+//! pixels, and shows what they look like by crops side by side.
+
+mod crops;
+mod edge_spread;
+pub mod figures;
+mod pattern;
+mod sheet;
+mod zone_plate;
+
+use crate::camera::{Footprint, View};
+use crate::compare::{CompareError, Mask, compare};
+use crate::filter::{FilterSettings, Prepared};
+use crate::raster::{Image, Rgba};
+use crate::render::{Progress, Resampler, Stopped};
+use crate::world::{Light, World};
+
+pub use crops::{CROP, Crop, busiest};
+pub use sheet::{Row, sheet};
+
+use pattern::{Pattern, Probe};
+
+/// One conversion on which filters are measured.
+pub struct Laboratory<'a> {
+    world: &'a World,
+    light: &'a Light,
+    target: &'a View,
+    /// Pixels that are whole.
+    whole: Mask,
+    /// Light of the test pattern.
+    pattern: Light,
+    /// Pixels of the test pattern that are measured.
+    probes: Vec<Probe>,
+}
+
+/// Response of a filter to the test pattern.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Response {
+    /// Energy of gratings of half a cycle a pixel to one that is left, of which a picture can hold none, in decibels below
+    /// that of the gratings. `None` where the texels hold no such gratings: a pixel must have more than one texel each way.
+    pub aliasing: Option<f64>,
+    /// Width in pixels over which an edge goes from 10 % to 90 %. `None` where the picture is too small for edges.
+    pub edge_width: Option<f64>,
+}
+
+impl<'a> Laboratory<'a> {
+    /// Prepares a conversion: makes the test pattern, and finds the pixels that count.
+    pub fn new((world, light): (&'a World, &'a Light), target: &'a View) -> Self {
+        let is_whole = |i, j| target.screen_pixel(i, j).is_some_and(|pixel| pixel.coverage == 1.0);
+        let whole = Mask::from_fn(target.width(), target.height(), is_whole);
+        let pattern = Pattern::over(target);
+        let probes = pattern.probes(world, &whole);
+        Self { world, light, target, whole, pattern: pattern.light(world), probes }
+    }
+
+    /// Makes the picture by a filter.
+    ///
+    /// # Errors
+    /// If the work is stopped.
+    pub fn picture(&self, filter: &FilterSettings, progress: &dyn Progress) -> Result<Image<Rgba>, Stopped> {
+        self.render(filter, self.light, progress)
+    }
+
+    /// Measures aliasing and blur of a filter.
+    ///
+    /// # Errors
+    /// If the work is stopped.
+    pub fn response(&self, filter: &FilterSettings, progress: &dyn Progress) -> Result<Response, Stopped> {
+        let image = self.render(filter, &self.pattern, progress)?;
+        Ok(Response {
+            aliasing: zone_plate::aliasing(&self.probes, &image),
+            edge_width: edge_spread::width(&self.probes, &image),
+        })
+    }
+
+    /// Returns the mean number of texels, or of entries of tables, that a filter reads for a pixel, over a grid of pixels.
+    pub fn reads(&self, prepared: &dyn Prepared) -> f64 {
+        /// Pixels along a side of the grid.
+        const SIDE: usize = 32;
+        let at = |k: usize, size: usize| (2 * k + 1) * size / (2 * SIDE);
+        let pixels = (0..SIDE * SIDE).map(|k| (at(k % SIDE, self.target.width()), at(k / SIDE, self.target.height())));
+        let footprints: Vec<Footprint> =
+            pixels.filter_map(|(i, j)| Some(self.target.screen_pixel(i, j)?.footprint)).collect();
+        let sum: usize = footprints.iter().map(|footprint| prepared.reads(footprint)).sum();
+        sum as f64 / footprints.len().max(1) as f64
+    }
+
+    /// Returns the world.
+    pub fn world(&self) -> &World {
+        self.world
+    }
+
+    /// Returns the world's light.
+    pub fn light(&self) -> &Light {
+        self.light
+    }
+
+    /// Returns the PSNR of linear light between two pictures, over whole pixels.
+    ///
+    /// # Errors
+    /// When a picture has another size than the target, or no pixel is whole.
+    pub fn psnr(&self, picture: &Image<Rgba>, to: &Image<Rgba>) -> Result<f64, CompareError> {
+        Ok(compare(picture, to, &self.whole)?.linear.psnr)
+    }
+
+    /// Returns whether a pixel is whole.
+    pub fn is_whole(&self, i: usize, j: usize) -> bool {
+        self.whole.row(j)[i]
+    }
+
+    fn render(&self, filter: &FilterSettings, light: &Light, progress: &dyn Progress) -> Result<Image<Rgba>, Stopped> {
+        Resampler { world: self.world, target: self.target, filter: *filter }.watched(progress).render(light.texels())
+    }
+}

@@ -1,0 +1,88 @@
+//! The filter laboratory, on filters whose aliasing and blur are known.
+
+use std::ops::ControlFlow;
+
+use cosmorama::filter::{Classic, Filter, FilterKind, FilterSettings};
+use cosmorama::laboratory::{CROP, Laboratory, Response, Row, busiest, sheet};
+use cosmorama::raster::{Image, Rgba};
+use cosmorama::sphere::CubeFace;
+use cosmorama::world::{Light, World};
+use testkit::{cube, perspective};
+
+fn filter(kind: FilterKind) -> FilterSettings {
+    FilterSettings { kind, ..FilterSettings::DEFAULT }
+}
+
+fn response(world: &World, size: usize, kind: FilterKind) -> Response {
+    let light = Light::by_direction(world, |_| Rgba::BLACK);
+    let target = perspective(size, size, 40.0, 10.0, 20.0, 30.0);
+    let laboratory = Laboratory::new((world, &light), &target);
+    laboratory.response(&filter(kind), &|_: f64| ControlFlow::Continue(())).expect("not stopped")
+}
+
+/// Four texels a pixel or more.
+fn fine() -> World {
+    cube(&CubeFace::ALL, 2048, 2048)
+}
+
+#[test]
+fn what_picks_single_texels_keeps_all_that_it_should_lose() {
+    let found = response(&fine(), 200, FilterKind::Point);
+    let aliasing = found.aliasing.expect("more texels than pixels");
+    assert!(aliasing.abs() < 0.2, "{aliasing} dB");
+    // An edge is as sharp as a texel: 0.8 of a quarter of a pixel, and two bins around.
+    assert!(found.edge_width.expect("edges") < 0.4, "{found:?}");
+}
+
+/// A box is the pixel itself: an edge takes 0.8 of its width along its sides, and somewhat more across corners.
+#[test]
+fn a_box_blurs_by_a_pixel_and_lets_some_aliasing_through() {
+    let found = response(&fine(), 200, FilterKind::Classic(Classic::Catmull));
+    let (width, aliasing) = (found.edge_width.expect("edges"), found.aliasing.expect("more texels than pixels"));
+    assert!((0.75..0.95).contains(&width), "{width} px");
+    assert!((-14.0..-6.0).contains(&aliasing), "{aliasing} dB");
+}
+
+#[test]
+fn ewa_aliases_less_than_a_box() {
+    let [ewa, catmull] = [FilterKind::Ewa, FilterKind::Classic(Classic::Catmull)]
+        .map(|kind| response(&fine(), 200, kind).aliasing.expect("more texels than pixels"));
+    assert!(ewa < catmull - 3.0, "{ewa} dB, and {catmull} dB by a box");
+}
+
+#[test]
+fn coarse_texels_hold_nothing_that_could_alias() {
+    let world = cube(&CubeFace::ALL, 128, 128);
+    assert_eq!(response(&world, 200, FilterKind::Point).aliasing, None);
+}
+
+#[test]
+fn texels_are_counted() {
+    let world = cube(&CubeFace::ALL, 512, 512);
+    let light = Light::by_direction(&world, |_| Rgba::BLACK);
+    let target = perspective(64, 64, 40.0, 10.0, 20.0, 30.0);
+    let laboratory = Laboratory::new((&world, &light), &target);
+    let reads = |kind| laboratory.reads(&*filter(kind).prepare(&world, &light).expect("light of the world"));
+    assert_eq!(reads(FilterKind::Point), 1.0);
+    assert_eq!(reads(FilterKind::Bilinear), 4.0);
+    // Some 5.5 texels a pixel's side, so that its square has 30, and touches those around.
+    let catmull = reads(FilterKind::Classic(Classic::Catmull));
+    assert!((25.0..60.0).contains(&catmull), "{catmull}");
+    assert!(reads(FilterKind::Reference { samples: 4 }) > 4.0 * 16.0);
+}
+
+#[test]
+fn crops_are_of_the_busiest_places_and_lie_side_by_side() {
+    let busy = |i: usize, j: usize| (200..260).contains(&i) && (70..120).contains(&j);
+    let picture = Image::from_fn(400, 300, |i, j| {
+        let value = if busy(i, j) { (i % 2) as f32 } else { 0.5 };
+        Rgba::opaque(value, value, value)
+    });
+    let places = busiest(&picture, |_, _| true, 2);
+    assert_eq!((places.len(), places[0]), (2, (192, 64)));
+    assert!(busiest(&picture, |i, _| i < 100, 4).iter().all(|&(left, _)| left + CROP <= 100));
+    let row = || Row::new(vec!["a filter".to_owned()], &picture, &places);
+    let (one, two) = (sheet(&[row()]), sheet(&[row(), row()]));
+    assert!(one.width() == two.width() && two.height() > one.height() + 2 * CROP - 1);
+    assert!(one.pixels().iter().all(|pixel| pixel.alpha() == 1.0));
+}
