@@ -52,7 +52,7 @@ pub(crate) struct GeometryArgs {
     pub(crate) labels: Option<LabelRule>,
     /// adaptive (default), mitchell, lanczos3, light, …
     ///
-    /// The weights of that average: adaptive, gaussian[:alpha=2,cutoff=1], mitchell, robidoux, robidoux-sharp, catmull-rom,
+    /// The weights of that average: adaptive, gaussian[:alpha=2,cutoff=1,table=2048], mitchell, robidoux, robidoux-sharp, catmull-rom,
     /// lanczos2, lanczos3, lanczos3-sharp, tent, box, or light, which keeps the light of suns. Each takes scale= (its unit in
     /// output pixels) and floor= (at least, in texels).
     #[arg(long, value_name = "NAME", default_value = "adaptive", value_parser = listed::kernel(), hide_possible_values = true, hide_default_value = true, help_heading = "Filter")]

@@ -23,6 +23,12 @@ impl KernelName {
     pub const NAMES: [(&str, &str); 12] = names::KERNELS;
 }
 
+/// Name of the kernel whose shape and table may be chosen.
+const GAUSSIAN: &str = "gaussian";
+
+/// Most entries of a table.
+const LONGEST: usize = 1 << 16;
+
 /// Name of the kernel that keeps the light of suns.
 const LIGHT: &str = "light";
 
@@ -50,7 +56,8 @@ impl FromStr for KernelName {
 impl fmt::Display for KernelName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { kernel, anti_ringing } = *self;
-        let scaled = |other: Kernel| Kernel { scale: kernel.scale, floor: kernel.floor, ..other };
+        let Kernel { scale, floor, entries, .. } = kernel;
+        let scaled = |other: Kernel| Kernel { scale, floor, entries, ..other };
         let of_name = |name: &&str| (*name == LIGHT) != anti_ringing && named(name).map(scaled) == Some(kernel);
         let name = Self::NAMES.iter().map(|(name, _)| *name).find(of_name).unwrap_or("gaussian");
         let usual = named(name).unwrap_or(kernel);
@@ -61,6 +68,9 @@ impl fmt::Display for KernelName {
             keys.extend([("alpha", alpha, two), ("cutoff", cutoff, one)]);
         }
         keys.extend([("scale", kernel.scale, usual.scale), ("floor", kernel.floor, usual.floor)]);
+        if kernel.entries != usual.entries {
+            keys.push(("table", kernel.entries as f64, usual.entries as f64));
+        }
         f.write_str(name)?;
         let given = keys.into_iter().filter(|(_, value, usual)| value != usual);
         given.enumerate().try_for_each(|(index, (key, value, _))| {
@@ -92,6 +102,12 @@ fn named(name: &str) -> Option<Kernel> {
 
 fn set_pair(kernel: &mut Kernel, name: &str, pair: &str) -> Result<(), String> {
     let (key, value) = pair.split_once('=').ok_or_else(|| format!("'{pair}' is no key=value"))?;
+    if (name, key) == (GAUSSIAN, "table") {
+        kernel.entries = value.parse().ok().filter(|entries| (2..=LONGEST).contains(entries)).ok_or_else(|| {
+            format!("table={value}: expected a number of entries from 2 to {LONGEST}")
+        })?;
+        return Ok(());
+    }
     let value =
         within_reach(value).ok_or_else(|| format!("{key}={value}: expected a number more than 0, at most {MOST}"))?;
     set(kernel, name, key, value)
@@ -106,7 +122,7 @@ fn set(kernel: &mut Kernel, name: &str, key: &str, value: f64) -> Result<(), Str
         ("alpha", CrossSection::Gaussian { alpha, .. }) => *alpha = value,
         ("cutoff", CrossSection::Gaussian { cutoff, .. }) => *cutoff = value,
         (_, CrossSection::Gaussian { .. }) => {
-            return Err(format!("unknown key '{key}' for {name}; it takes alpha, cutoff, scale, floor"));
+            return Err(format!("unknown key '{key}' for {name}; it takes alpha, cutoff, table, scale, floor"));
         }
         _ => return Err(format!("unknown key '{key}' for {name}; it takes scale, floor")),
     }
@@ -143,6 +159,8 @@ mod tests {
         let KernelName { kernel, .. } = "gaussian:alpha=3,cutoff=1.5,scale=0.6".parse().unwrap();
         let gaussian = CrossSection::Gaussian { alpha: 3.0, cutoff: 1.5 };
         assert_eq!(kernel, Kernel { scale: 0.6, ..Kernel::uniform(gaussian) });
+        let tabled: KernelName = "gaussian:alpha=2,cutoff=1,table=4096".parse().unwrap();
+        assert_eq!((tabled.kernel.entries, tabled.to_string().as_str()), (4096, "gaussian:table=4096"));
         let light: KernelName = "light".parse().unwrap();
         let written: KernelName = "gaussian:cutoff=2,scale=1.4,floor=1.4".parse().unwrap();
         assert_eq!(light, KernelName { anti_ringing: false, ..written });
@@ -159,6 +177,9 @@ mod tests {
             "tent:floor=nan",
             "box:scale",
             "gaussian:sigma=1",
+            "gaussian:table=1",
+            "gaussian:table=0.5",
+            "mitchell:table=64",
             "light:alpha=9",
         ] {
             assert!(wrong.parse::<KernelName>().is_err(), "{wrong}");

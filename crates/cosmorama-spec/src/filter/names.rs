@@ -25,7 +25,7 @@ pub(super) const FILTERS: [(&str, &str); 16] = [
 /// Kernels, each with a line of help.
 pub(super) const KERNELS: [(&str, &str); 12] = [
     ("adaptive", "A sharp cubic, softer the more texels a pixel holds"),
-    ("gaussian", "Heckbert's Gaussian; takes alpha= and cutoff=, too"),
+    ("gaussian", "Heckbert's Gaussian; takes alpha=, cutoff= and table=, too"),
     ("mitchell", "Mitchell and Netravali's cubic"),
     ("robidoux", "Robidoux's cubic, soft"),
     ("robidoux-sharp", "Robidoux's sharper cubic"),

@@ -2,10 +2,10 @@ use super::pattern::Probe;
 use crate::raster::{Image, Rgba};
 
 /// Distance from an edge, in pixels, within which pixels tell its shape.
-const REACH: f64 = 8.0;
+const REACH: f64 = 6.0;
 
 /// Bins a pixel of the edge's shape.
-const BINS: f64 = 8.0;
+const BINS: f64 = 5.0;
 
 /// Returns the width over which edges go from 10 % to 90 %: the edge's shape is the mean of all pixels at one distance, as
 /// the slanted-edge method has it (ISO 12233).

@@ -92,6 +92,7 @@ impl<'a> Pattern<'a> {
 
 /// Returns the distance outwards from the nearest edge, and whether it gets brighter outwards.
 fn ring(distance: f64) -> (f64, bool) {
-    let edge = (distance / RING).round();
+    // The rings begin with one edge around a dark middle.
+    let edge = (distance / RING).round().max(1.0);
     (distance - edge * RING, edge as i64 % 2 == 1)
 }

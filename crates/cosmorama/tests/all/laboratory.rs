@@ -43,11 +43,14 @@ fn a_box_blurs_by_a_pixel_and_lets_some_aliasing_through() {
     assert!((-14.0..-6.0).contains(&aliasing), "{aliasing} dB");
 }
 
+/// The paper's Gaussian leaves exp(−π² f²/2) of a frequency: less than a box, for more blur.
 #[test]
-fn ewa_aliases_less_than_a_box() {
-    let [ewa, catmull] = [FilterKind::Ewa, FilterKind::Classic(Classic::Catmull)]
-        .map(|kind| response(&fine(), 200, kind).aliasing.expect("more texels than pixels"));
-    assert!(ewa < catmull - 3.0, "{ewa} dB, and {catmull} dB by a box");
+fn the_papers_gaussian_aliases_less_than_a_box_and_blurs_more() {
+    let [paper, catmull] = [Classic::EwaPaper, Classic::Catmull].map(|classic| {
+        let found = response(&fine(), 200, FilterKind::Classic(classic));
+        (found.aliasing.expect("more texels than pixels"), found.edge_width.expect("edges"))
+    });
+    assert!(paper.0 < catmull.0 - 2.0 && paper.1 > catmull.1, "{paper:?}, and {catmull:?} by a box");
 }
 
 #[test]
@@ -64,7 +67,8 @@ fn texels_are_counted() {
     let laboratory = Laboratory::new((&world, &light), &target);
     let reads = |kind| laboratory.reads(&*filter(kind).prepare(&world, &light).expect("light of the world"));
     assert_eq!(reads(FilterKind::Point), 1.0);
-    assert_eq!(reads(FilterKind::Bilinear), 4.0);
+    // Beside the edge of a face, some of the four are looked up in the other.
+    assert!((4.0..4.1).contains(&reads(FilterKind::Bilinear)));
     // Some 5.5 texels a pixel's side, so that its square has 30, and touches those around.
     let catmull = reads(FilterKind::Classic(Classic::Catmull));
     assert!((25.0..60.0).contains(&catmull), "{catmull}");

@@ -49,12 +49,12 @@ fn all_filters_in_one_table_with_crops_side_by_side() {
 #[test]
 fn a_direct_render_is_the_truth() {
     let bench = bench();
-    bench.succeed(&[&["convert", "face_{face}.png", "direct.png"], &TARGET[..]].concat());
+    bench.succeed(&[&["convert", "face_{face}.png", "direct.png", "--depth", "16"], &TARGET[..]].concat());
     let report: Value =
         serde_json::from_str(&filters(&bench, &["--only", "ewa,point", "--truth", "direct.png", "--json"])).unwrap();
     let psnr = |index: usize| report["filters"][index]["psnr_to_truth"].as_f64().unwrap();
-    // Rounded to 8 bits.
-    assert!(psnr(0) > 50.0 && psnr(1) < 40.0, "{report}");
+    // Rounded to 16 bits.
+    assert!(psnr(0) > 90.0 && psnr(1) < 60.0, "{report}");
     let args = ["filters", "face_{face}.png", "--to", "perspective", "--size", "64", "--truth", "direct.png"];
     assert_says(&bench.fail(2, &args), &["direct.png", "96x96", "--size"]);
 }

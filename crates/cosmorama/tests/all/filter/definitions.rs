@@ -241,7 +241,7 @@ fn an_impulse_shows_a_weight_and_a_constant_stays() {
             |i, j| f64::from(u8::from((i, j) == IMPULSE)),
             |average| {
                 for (k, pixel) in Pixel::all().enumerate() {
-                    let aside = DVec2::from_angle(k as f64) * (0.17 * k as f64);
+                    let aside = DVec2::from_angle(k as f64) * (0.013 + 0.17 * k as f64);
                     let pixel = Pixel { middle: DVec2::new(64.5, 64.5) + aside, ..pixel };
                     let texels = (0..SIDE).flat_map(|j| (0..SIDE).map(move |i| (i, j)));
                     let whole: f64 = texels.map(|(i, j)| weight(pixel, i, j)).sum();
