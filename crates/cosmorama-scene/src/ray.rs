@@ -1,6 +1,6 @@
 use cosmorama::camera::Footprint;
 use cosmorama::sphere::Direction;
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 /// A ray with its derivatives along the screen: the beam that a pixel sees (Igehy 1999).
 ///
@@ -86,6 +86,13 @@ impl Ray {
     /// Returns the changes of the point at a distance, with the distance kept.
     pub fn spread(&self, distance: f64) -> [DVec3; 2] {
         [self.dx, self.dy].map(|change| change.origin + change.direction * distance)
+    }
+
+    /// Returns the change of a plane's nearness, one over the distance along the ray, for one pixel to the right and down, as a
+    /// part of it. Of rays from one point, the directions D + dD·s meet the plane at 1/(D·N + dD·N s).
+    pub fn nearing(&self, normal: DVec3) -> DVec2 {
+        let changes = DVec2::new(self.dx.direction.dot(normal), self.dy.direction.dot(normal));
+        changes / self.direction.dot(normal)
     }
 
     /// Returns the ray as it meets a surface: its origin, and its changes, lie on the surface.

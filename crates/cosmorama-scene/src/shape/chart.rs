@@ -1,3 +1,5 @@
+use cosmorama::filter::{Texture, TextureFootprint};
+use cosmorama::raster::Rgba;
 use glam::{DMat2, DVec2, DVec3};
 
 /// Place of a ray on the pictures of a surface.
@@ -9,6 +11,8 @@ pub(crate) struct Chart {
     pub(crate) dx: DVec2,
     /// Change of the coordinates for one pixel down.
     pub(crate) dy: DVec2,
+    /// Change of nearness for one pixel to the right and down, as a part of it.
+    pub(crate) nearing: DVec2,
     /// Unit vector on the surface along u.
     pub(crate) tangent: DVec3,
     /// Unit vector on the surface against v: up in the picture.
@@ -21,8 +25,9 @@ impl Chart {
         Self { tangent: -self.tangent, bitangent: -self.bitangent, ..self }
     }
 
-    /// Returns the changes of the coordinates, as columns.
-    pub(crate) fn jacobian(&self) -> DMat2 {
-        DMat2::from_cols(self.dx, self.dy)
+    /// Averages a picture under the pixel.
+    pub(crate) fn average(&self, picture: &Texture) -> Rgba {
+        let jacobian = DMat2::from_cols(self.dx, self.dy);
+        picture.average_of(&TextureFootprint { at: self.at, jacobian, nearing: self.nearing })
     }
 }

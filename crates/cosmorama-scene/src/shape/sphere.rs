@@ -44,7 +44,7 @@ impl Solid for Sphere {
 
 impl Sphere {
     /// Returns a ball.
-    pub fn new(centre: DVec3, radius: f64) -> Self {
+    pub const fn new(centre: DVec3, radius: f64) -> Self {
         Self { centre, radius, orientation: Orientation::IDENTITY }
     }
 
@@ -99,6 +99,8 @@ impl Sphere {
             at: DVec2::new(0.5 + x.atan2(z) / TAU, axis.atan2(y) / PI),
             dx: change(own(normal.dx)),
             dy: change(own(normal.dy)),
+            // A ball bends more than its perspective does.
+            nearing: DVec2::ZERO,
             tangent,
             bitangent: normal.unit.cross(tangent),
         }

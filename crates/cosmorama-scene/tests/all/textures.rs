@@ -1,7 +1,7 @@
 //! Pictures on surfaces: a checkered plane that goes to the horizon, against many samples a pixel.
 
 use cosmorama::camera::PixelPoint;
-use cosmorama::filter::{Kernel, Texture, Wrap};
+use cosmorama::filter::{Kernel, Texture, TextureFootprint, Wrap};
 use cosmorama::prelude::*;
 use cosmorama_scene::{Camera, Place};
 use glam::{DMat2, DVec2, DVec3};
@@ -31,13 +31,14 @@ fn camera() -> Camera {
     Camera::lens(place, Placement::new(lens.into()).view(WIDTH, HEIGHT).unwrap()).unwrap()
 }
 
-/// Returns where a point of the picture lies on the plane's picture, with the changes for one pixel; `None` in the sky.
-fn chart(camera: &Camera, at: PixelPoint) -> Option<(DVec2, DMat2)> {
+/// Returns how a pixel lies on the plane's picture; `None` in the sky.
+fn chart(camera: &Camera, at: PixelPoint) -> Option<TextureFootprint> {
     let ray = camera.ray(at)?;
     let distance = ray.origin.y / -ray.direction.y;
     let met = (distance > 0.0).then(|| ray.met(distance, DVec3::Y))?;
     let flat = |point: DVec3| DVec2::new(point.x, point.z) / LENGTH;
-    Some((flat(met.origin), DMat2::from_cols(flat(met.dx.origin), flat(met.dy.origin))))
+    let jacobian = DMat2::from_cols(flat(met.dx.origin), flat(met.dy.origin));
+    Some(TextureFootprint { at: flat(met.origin), jacobian, nearing: ray.nearing(DVec3::Y) })
 }
 
 /// Returns the number of samples along the side of a pixel, enough for the pictures that it is long.
@@ -61,8 +62,8 @@ fn brute(camera: &Camera, picture: &Image<Rgba>, (i, j): (usize, usize), jacobia
             continue;
         }
         let place = PixelPoint::new(i as f64 + 0.5 + x, j as f64 + 0.5 + y);
-        let Some((at, _)) = chart(camera, place) else { continue };
-        let sample = bilinear(picture, at);
+        let Some(seen) = chart(camera, place) else { continue };
+        let sample = bilinear(picture, seen.at);
         sum += weight * sample;
         whole += weight;
         if r * r < UNDER {
@@ -89,8 +90,9 @@ fn a_checkered_plane_is_that_of_many_samples_up_to_the_horizon() {
     let texture = Texture::new(picture.clone(), [Wrap::Repeat; 2]);
     let (mut squares, mut count, mut worst, mut far) = (0.0, 0usize, 0.0f64, 0usize);
     for (i, j) in (0..HEIGHT).flat_map(|j| (0..WIDTH).step_by(APART).map(move |i| (i, j))) {
-        let Some((at, jacobian)) = chart(&camera, PixelPoint::centre(i, j)) else { continue };
-        let found = f64::from(texture.average(at, jacobian).0[0]);
+        let Some(footprint) = chart(&camera, PixelPoint::centre(i, j)) else { continue };
+        let jacobian = footprint.jacobian;
+        let found = f64::from(texture.average_of(&footprint).0[0]);
         let error = (found - brute(&camera, &picture, (i, j), &jacobian)).abs();
         squares += error * error;
         count += 1;

@@ -17,7 +17,7 @@ pub use ewa::Ewa;
 pub use ewa::paper::{TextureDerivatives, WeightTable, ewa};
 pub use ewa_pyramid::EwaPyramid;
 pub use ewa_pyramid::level::MOST_TEXELS;
-pub use ewa_pyramid::texture::{Texture, Wrap};
+pub use ewa_pyramid::texture::{Texture, TextureFootprint, Wrap};
 pub use gather::ellipse::Ellipse;
 pub(crate) use gather::ellipse::semi_axes;
 pub(crate) use gather::pixel_taps::PixelTaps;

@@ -18,6 +18,8 @@ pub(super) struct Place {
     pub(super) weights: [f64; 2],
     /// Their changes for one pixel to the right, and down.
     pub(super) turns: [[f64; 2]; 2],
+    /// Change of nearness for one pixel to the right and down, as a part of it.
+    pub(super) nearing: DVec2,
 }
 
 impl Place {
@@ -50,7 +52,7 @@ impl Map {
         let tangent = tangent.unwrap_or_else(|| normal.any_orthonormal_vector());
         let bitangent = normal.cross(tangent) * side.signum();
         let [dx, dy] = place.turns.map(between);
-        Chart { at: self.uvs[0] + between(place.weights), dx, dy, tangent, bitangent }
+        Chart { at: self.uvs[0] + between(place.weights), dx, dy, nearing: place.nearing, tangent, bitangent }
     }
 }
 

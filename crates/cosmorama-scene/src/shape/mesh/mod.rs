@@ -112,7 +112,11 @@ impl Mesh {
         let met = ray.met(hit.distance, outward);
         let squared = plane.length_squared();
         let turn = |moved: DVec3| [moved.cross(sides[1]), sides[0].cross(moved)].map(|part| part.dot(plane) / squared);
-        let place = Place { weights: hit.weights, turns: [met.dx.origin, met.dy.origin].map(turn) };
+        let place = Place {
+            weights: hit.weights,
+            turns: [met.dx.origin, met.dy.origin].map(turn),
+            nearing: ray.nearing(outward),
+        };
         let skin = &self.skins[hit.face];
         let normal = place.normal(&skin.normals);
         let chart = self.maps.get(hit.face).and_then(Option::as_ref).map(|map| map.chart(&place, sides, normal.unit));

@@ -15,7 +15,7 @@ use crate::world::{Source, World};
 const UNIT: f64 = 1.4;
 
 /// Ratio of length to width above which a kernel is widened, so that the number of its texels stays bounded.
-pub(super) const LONGEST: f64 = 16.0;
+const LONGEST: f64 = 16.0;
 
 /// Part of the interval between two levels, at its end, in which the two are blended. Before it only the finer level is
 /// read, which is nearer to exact EWA.

@@ -1,12 +1,12 @@
 use glam::{DMat2, DVec2};
 
 use super::halving::halved;
-use super::level::{LONGEST, level_of, part};
+use super::level::{level_of, part};
 use crate::camera::PixelPoint;
 use crate::filter::Kernel;
 use crate::filter::ewa::scratch_pool::Pool;
 use crate::filter::gather::candidate::Candidate;
-use crate::filter::gather::ellipse::Ellipse;
+use crate::filter::gather::ellipse::{Ellipse, widened};
 use crate::filter::gather::tap_weights::settle;
 use crate::filter::gather::texel_run::{TexelBox, ceil, floor};
 use crate::filter::kernel::KernelTable;
@@ -37,8 +37,29 @@ pub struct Texture {
     scratch: Pool<(Vec<Candidate>, Taps)>,
 }
 
+/// A pixel as it lies on a flat picture: an offset s of pixels from its middle is at `at` + Js/(1 + n·s).
+///
+/// That is exact for a plane in a perspective view. Elsewhere it is right for small offsets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TextureFootprint {
+    /// Coordinates u and v of its middle.
+    pub at: DVec2,
+    /// J: the columns are the changes of (u, v) for one pixel to the right and one down.
+    pub jacobian: DMat2,
+    /// n: the change of nearness, one over the depth, for one pixel to the right and down, as a part of it. Zero where all is
+    /// equally far away.
+    pub nearing: DVec2,
+}
+
+/// Ratio of length to width above which a pixel is widened, so that the number of its texels stays bounded.
+const LONGEST: f64 = 64.0;
+
+/// Greatest relative change of nearness from the middle of a pixel's kernel to its edge: beyond 1 it would look past the
+/// horizon.
+const STEEPEST: f64 = 0.9;
+
 /// Way in which a picture goes on beyond its edges.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Wrap {
     /// The picture again.
     #[default]
@@ -51,7 +72,7 @@ pub enum Wrap {
 
 impl Wrap {
     /// Returns the column or row of a texel that may lie beyond the edges.
-    fn texel(self, at: i64, size: usize) -> usize {
+    pub fn texel(self, at: i64, size: usize) -> usize {
         let size = size as i64;
         let inside = match self {
             Self::Repeat => at.rem_euclid(size),
@@ -89,55 +110,102 @@ impl Texture {
         self.wrap
     }
 
-    /// Averages the picture under a pixel. The columns of the matrix are the changes of (u, v) for one pixel to the
-    /// right and one down.
-    ///
-    /// A pixel that is much longer than wide is widened, so that the number of texels is bounded. One that holds all of
-    /// the picture, or is not finite, has its mean.
+    /// Averages the picture under a pixel that lies on it without perspective. The columns of the matrix are the changes of
+    /// (u, v) for one pixel to the right and one down.
     pub fn average(&self, at: DVec2, jacobian: DMat2) -> Rgba {
+        self.average_of(&TextureFootprint { at, jacobian, nearing: DVec2::ZERO })
+    }
+
+    /// Averages the picture under a pixel.
+    ///
+    /// A pixel that is very much longer than wide is widened, so that the number of texels is bounded. One that holds all of
+    /// the picture, or is not finite, has its mean.
+    pub fn average_of(&self, footprint: &TextureFootprint) -> Rgba {
+        let TextureFootprint { at, jacobian, nearing } = *footprint;
         let coarsest = (self.levels.len() - 1) as f32;
         let number =
             level_of(DMat2::from_diagonal(size(self.picture())) * jacobian, self.table.kernel(), LONGEST) as f32;
-        if !at.is_finite() || !jacobian.is_finite() || number >= coarsest {
+        if !at.is_finite() || !jacobian.is_finite() || !nearing.is_finite() || number >= coarsest {
             return self.levels[self.levels.len() - 1].pixels()[0];
         }
         let mut sum = Rgba::TRANSPARENT;
         for level in [number.max(0.0) as usize, number.max(0.0) as usize + 1] {
             let part = part(number, level);
             if part > 0.0 {
-                sum += self.on_level(&self.levels[level], at, jacobian) * part;
+                sum += self.on_level(&self.levels[level], footprint) * part;
             }
         }
         sum
     }
 
-    /// Averages an ellipse of the texels of a level.
-    fn on_level(&self, level: &Image<Rgba>, at: DVec2, jacobian: DMat2) -> Rgba {
+    /// Averages the texels of a level under a pixel's kernel.
+    fn on_level(&self, level: &Image<Rgba>, footprint: &TextureFootprint) -> Rgba {
         let kernel = self.table.kernel();
-        let (centre, jacobian) = (at * size(level), DMat2::from_diagonal(size(level)) * jacobian);
+        let centre = footprint.at * size(level);
+        let jacobian = DMat2::from_diagonal(size(level)) * footprint.jacobian;
         let coarseness = kernel.coarseness(jacobian.determinant().abs().sqrt()) as f32;
-        let ellipse = Ellipse::new(jacobian * kernel.scale, kernel.floor);
+        let lens = Lens::new(
+            widened(jacobian * kernel.scale, kernel.floor),
+            footprint.nearing * kernel.scale,
+            self.table.radius_squared().sqrt(),
+        );
         let reach = self.table.radius_squared();
-        let rows = ellipse.rows(reach);
-        let bounds = TexelBox::around(PixelPoint::new(centre.x, centre.y), ellipse.half_extent(reach));
+        let (rows, middle) = (lens.outline.rows(reach), centre + lens.middle);
+        let bounds = TexelBox::around(PixelPoint::new(middle.x, middle.y), lens.outline.half_extent(reach));
         let [across, down] = self.wrap;
         self.scratch.lend(|(candidates, taps)| {
             candidates.clear();
             taps.clear();
             for j in bounds.top..=bounds.bottom {
-                let v = j as f64 + 0.5 - centre.y;
-                let Some((least, greatest)) = rows.range(v) else { continue };
+                let y = j as f64 + 0.5;
+                let Some((least, greatest)) = rows.range(y - middle.y) else { continue };
                 let row = down.texel(j, level.height()) * level.width();
-                for i in ceil(centre.x + least - 0.5)..=floor(centre.x + greatest - 0.5) {
-                    let offset = DVec2::new(i as f64 + 0.5 - centre.x, v);
-                    let (texel, q) = (row + across.texel(i, level.width()), ellipse.distance_squared(offset));
-                    // Offsets in texels serve as those on the screen do: centring and surrounding are affine.
-                    candidates.push(Candidate::weighed(&self.table, texel, 1.0, q, coarseness, offset));
+                for i in ceil(middle.x + least - 0.5)..=floor(middle.x + greatest - 0.5) {
+                    let Some((offset, share)) = lens.screen(DVec2::new(i as f64 + 0.5, y) - centre) else { continue };
+                    let (texel, q) = (row + across.texel(i, level.width()), offset.length_squared());
+                    if q < reach {
+                        candidates.push(Candidate::weighed(&self.table, texel, share as f32, q, coarseness, offset));
+                    }
                 }
             }
             settle(candidates, kernel.centred, None, taps);
             average(taps.list(), |texel| level.pixels()[texel as usize], true)
         })
+    }
+}
+
+/// Map between texels about a pixel's middle and the screen, in the kernel's unit, in perspective.
+struct Lens {
+    to_screen: DMat2,
+    nearing: DVec2,
+    /// Ellipse of the texels that the kernel reaches, about its own middle.
+    outline: Ellipse,
+    middle: DVec2,
+}
+
+impl Lens {
+    /// Makes the map of a kernel of a radius: a place s on the screen is at Js/(1 + n·s) among the texels.
+    fn new(jacobian: DMat2, nearing: DVec2, radius: f64) -> Self {
+        let nearing = nearing.clamp_length_max(STEEPEST / radius);
+        // The disc |s| < R is the ellipse |t − t₀|² < R²/(1 − R²n²) of t = s/(1 + n·s), flattened along n by
+        // √(1 − R²n²), with t₀ = −R²n/(1 − R²n²).
+        let flat = 1.0 - radius * radius * nearing.length_squared();
+        let along = nearing.normalize_or_zero();
+        let longer = (flat.sqrt().recip() - 1.0) * along;
+        let stretch = DMat2::IDENTITY + DMat2::from_cols(along * longer.x, along * longer.y);
+        Self {
+            to_screen: jacobian.inverse(),
+            nearing,
+            outline: Ellipse::new(jacobian * stretch * flat.sqrt().recip(), 0.0),
+            middle: jacobian * nearing * (-radius * radius / flat),
+        }
+    }
+
+    /// Returns the place of a texel on the screen, and its area there relative to the middle's; `None` beyond the horizon.
+    fn screen(&self, texel: DVec2) -> Option<(DVec2, f64)> {
+        let flat = self.to_screen * texel;
+        let depth = 1.0 - self.nearing.dot(flat);
+        (depth > 0.0).then(|| (flat / depth, depth.powi(-3)))
     }
 }
 
@@ -212,6 +280,40 @@ mod tests {
             let found = texture.average(at, texels * (1.0 / 64.0));
             let error = (DVec2::new(found.0[0].into(), found.0[1].into()) - at * 64.0).abs().max_element();
             assert!(error < 0.01 * size.max(1.0), "{k}: {error} of {size}");
+        }
+    }
+
+    #[test]
+    fn a_pixel_in_perspective_reaches_what_the_screen_shows() {
+        let (jacobian, nearing) = (DMat2::from_cols_array(&[3.0, 0.4, -0.7, 11.0]), DVec2::new(0.1, -0.4));
+        let lens = Lens::new(jacobian, nearing, 2.0);
+        for k in 0..100 {
+            let place = DVec2::from_angle(f64::from(k)) * (0.02 * f64::from(k));
+            let texel = jacobian * place / (1.0 + nearing.dot(place));
+            let (found, _) = lens.screen(texel).expect("before the horizon");
+            assert!(found.distance(place) < 1e-9, "{found} for {place}");
+            // The outline is that of the disc of radius 2.
+            let inside = lens.outline.distance_squared(texel - lens.middle);
+            assert!((inside < 4.0) == (place.length() < 2.0), "{place}: {inside}");
+        }
+        let rim = |k: u32| {
+            let place = DVec2::from_angle(f64::from(k)) * 2.0;
+            lens.outline.distance_squared(jacobian * place / (1.0 + nearing.dot(place)) - lens.middle)
+        };
+        assert!((0..50).all(|k| (rim(k) - 4.0).abs() < 1e-9));
+    }
+
+    #[test]
+    fn shares_are_areas_on_the_screen() {
+        let lens = Lens::new(DMat2::from_cols_array(&[2.0, 0.3, 0.5, 5.0]), DVec2::new(-0.2, 0.3), 2.0);
+        for k in 0..20 {
+            let texel = DVec2::from_angle(f64::from(k)) * 1.5;
+            let step = 1e-5;
+            let at = |x: f64, y: f64| lens.screen(texel + DVec2::new(x, y)).expect("before the horizon").0;
+            let (x, y) = (at(step, 0.0) - at(-step, 0.0), at(0.0, step) - at(0.0, -step));
+            let area = x.perp_dot(y) / (4.0 * step * step) / lens.to_screen.determinant();
+            let (_, share) = lens.screen(texel).expect("before the horizon");
+            assert!((area / share - 1.0).abs() < 1e-6, "{area} {share}");
         }
     }
 

@@ -108,6 +108,24 @@ impl EllipseRows {
     }
 }
 
+/// Returns a matrix with its singular values raised to at least `floor`: its ellipse is widened, and nothing else.
+pub(crate) fn widened(jacobian: DMat2, floor: f64) -> DMat2 {
+    let [major, minor] = semi_axes(jacobian);
+    if minor >= floor {
+        return jacobian;
+    }
+    let (x, y) = (jacobian.x_axis, jacobian.y_axis);
+    // JᵀJ = mean·1 + spread·(cos 2θ, sin 2θ; sin 2θ, −cos 2θ), θ being the angle that is stretched most.
+    let (half, q) = ((x.length_squared() - y.length_squared()) / 2.0, x.dot(y));
+    let (cos, sin) = half_angle(half, q, (half * half + q * q).sqrt());
+    let axes = [DVec2::new(cos, sin), DVec2::new(-sin, cos)];
+    let across = if jacobian.determinant() < 0.0 { -1.0 } else { 1.0 };
+    // Where there is no major axis, any will do.
+    let along = (jacobian * axes[0]).try_normalize().unwrap_or(axes[0]);
+    let columns = DMat2::from_cols(along * major.max(floor), along.perp() * (across * minor.max(floor)));
+    columns * DMat2::from_cols(axes[0], axes[1]).transpose()
+}
+
 /// Returns the semi-axes of the image of the unit circle, the major one first: the singular values.
 pub(crate) fn semi_axes(jacobian: DMat2) -> [f64; 2] {
     let [a, b, c, d] = jacobian.to_cols_array();
@@ -136,6 +154,20 @@ fn half_angle(x: f64, y: f64, length: f64) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn widened_matrices_have_the_widened_ellipse() {
+        for k in 0..200 {
+            let t = f64::from(k);
+            let columns = [DVec2::from_angle(t) * (0.03 * t), DVec2::from_angle(1.7 * t) * (0.01 * t)];
+            let jacobian = DMat2::from_cols(columns[0], columns[1]);
+            let (found, expected) = (Ellipse::new(widened(jacobian, 1.12), 0.0), Ellipse::new(jacobian, 1.12));
+            let error =
+                (found.a - expected.a).abs().max((found.b - expected.b).abs()).max((found.c - expected.c).abs());
+            assert!(error < 1e-9, "{k}: {found:?} for {expected:?}");
+            assert!(widened(jacobian, 0.0) == jacobian);
+        }
+    }
 
     #[test]
     fn an_ellipse_is_the_image_of_the_unit_circle() {
