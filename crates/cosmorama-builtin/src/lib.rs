@@ -19,7 +19,7 @@ mod zone_plate;
 
 pub use builtin_world::BuiltinWorld;
 pub use checker::Checker;
-pub use demo::{DemoWorld, Eyepiece};
+pub use demo::{DemoScenery, DemoSky, DemoWorld, Eyepiece, PaintedSky};
 pub use direction_map::{DirectionMap, DirectionPixel};
 pub use directions::Directions;
 pub use grid::Grid;

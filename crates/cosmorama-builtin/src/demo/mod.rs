@@ -4,7 +4,9 @@ mod eyepiece;
 mod hall;
 mod lettering;
 mod noise;
+mod painted_sky;
 mod ray;
+mod scenery;
 mod sky;
 mod solid;
 mod thing;
@@ -13,6 +15,8 @@ use cosmorama::sphere::Direction;
 use glam::DVec3;
 
 pub use eyepiece::Eyepiece;
+pub use painted_sky::PaintedSky;
+pub use scenery::{DemoScenery, DemoSky};
 
 use crate::Radiance;
 use ray::{Hit, Part, Ray, Surface};
@@ -42,19 +46,21 @@ const PARTS: [&dyn Part; 9] = [
 
 impl Radiance for DemoWorld {
     fn radiance(&self, direction: Direction) -> [f32; 3] {
-        let eye = Ray::new(DVec3::new(0.0, EYE_HEIGHT, 0.0), direction.vector());
-        let (mut light, mirrored) = look(&eye);
-        if let Some((ray, share)) = mirrored {
-            // A mirror in a mirror is left dark: the work per ray stays bounded.
-            light += look(&ray).0 * share;
-        }
-        light.as_vec3().to_array()
+        seen(direction, &sky::light).as_vec3().to_array()
     }
 }
 
+/// Returns the light from a direction, under a sky.
+fn seen(direction: Direction, sky: &dyn Fn(DVec3) -> DVec3) -> DVec3 {
+    let eye = Ray::new(DVec3::new(0.0, EYE_HEIGHT, 0.0), direction.vector());
+    let (light, mirrored) = look(&eye, sky);
+    // A mirror in a mirror is left dark: the work per ray stays bounded.
+    mirrored.map_or(light, |(ray, share)| light + look(&ray, sky).0 * share)
+}
+
 /// Returns the light along a ray, and the mirrored ray with its share of the light.
-fn look(ray: &Ray) -> (DVec3, Option<(Ray, f64)>) {
-    let Some(hit) = first_hit(ray) else { return (sky::light(ray.direction), None) };
+fn look(ray: &Ray, sky: &dyn Fn(DVec3) -> DVec3) -> (DVec3, Option<(Ray, f64)>) {
+    let Some(hit) = first_hit(ray) else { return (sky(ray.direction), None) };
     let point = ray.at(hit.distance);
     let clarity = sky::clarity(hit.distance);
     let light = shade(point, &hit) * clarity + sky::haze(ray.direction) * (1.0 - clarity);

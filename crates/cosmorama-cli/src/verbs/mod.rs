@@ -35,6 +35,7 @@ pub(crate) fn run(verb: Verb, console: &mut Console) -> Result<ExitCode> {
         Verb::Convert(args) => convert::run(*args, console),
         Verb::Light(args) => light::run(args, console),
         Verb::Shade(args) => shade::run(*args, console),
+        Verb::Plates(args) => demo::plates::run(&args, console),
         Verb::Info(args) => info::run(&args, console),
         Verb::Explain(args) => explain::run(*args, console),
         Verb::Compare(args) => compare::run(&args, console),

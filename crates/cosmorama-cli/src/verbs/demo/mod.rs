@@ -1,5 +1,6 @@
 mod animation;
 pub(super) mod figures;
+pub(super) mod plates;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;

@@ -5,8 +5,10 @@ use std::process::Command;
 use crate::bench::{Bench, assert_says, text};
 use cosmorama_spec::{FilterName, KernelName, SpecKind, TransferName};
 
-const VERBS: [&str; 12] =
-    ["demo", "convert", "light", "shade", "info", "explain", "compare", "filters", "figures", "completions", "man", "help"];
+const VERBS: [&str; 14] = [
+    "demo", "convert", "light", "shade", "plates", "info", "explain", "compare", "verify", "filters", "figures", "completions", "man",
+    "help",
+];
 
 /// Lines of short help at most.
 const SHORT: usize = 60;

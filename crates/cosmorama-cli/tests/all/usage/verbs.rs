@@ -1,6 +1,6 @@
-//! The other verbs: `info`, `explain`, `compare`, `demo`.
+//! The other verbs: `info`, `explain`, `compare`, `demo`, `plates`.
 
-use crate::bench::{Bench, assert_says, flat, picture};
+use crate::bench::{Bench, assert_says, eight_bits, flat, picture};
 use serde_json::Value;
 
 #[test]
@@ -164,4 +164,24 @@ fn the_demo_can_be_repeated() {
     let told = bench.succeed(&["demo", "--animation", "1"]);
     assert_says(&told, &["the frames in", "--in-path", "--backdrop", "ffmpeg"]);
     assert!(bench.path("cosmorama-demo/animation/frame_0001.png").exists());
+}
+
+#[test]
+fn all_plates_and_figures_are_made_and_none_is_replaced_unasked() {
+    let bench = Bench::new();
+    let told = bench.succeed(&["plates", "made", "--size", "48"]);
+    let plates = (1..=7).map(|number| format!("plate{number}.png")).chain(["figure1.png".to_owned()]);
+    for name in plates {
+        let image = bench.load(&format!("made/{name}"));
+        let pixels = eight_bits(&image);
+        let (least, greatest) = (pixels.iter().min().unwrap(), pixels.iter().max().unwrap());
+        assert!(told.contains(&name) && greatest - least > 20, "{name}: {least} to {greatest}");
+    }
+    for name in ["figure2-mercator.svg", "figure2-cube.png", "world/sky.png", "world/mercator.png", "world/up.png"] {
+        assert!(bench.path(&format!("made/{name}")).exists(), "{name}");
+    }
+    let frame = bench.load("made/plate7.png");
+    assert_eq!((frame.width(), frame.height()), (122, 89));
+    assert_says(&bench.fail(1, &["plates", "made", "--size", "48"]), &["exists", "-y"]);
+    assert_says(&bench.fail(2, &["plates", "others", "--size", "9"]), &["--size", "from 32 to 8192"]);
 }
