@@ -28,6 +28,7 @@
 
 mod camera;
 mod error;
+mod formula;
 mod material;
 mod model;
 mod picture;
@@ -39,13 +40,15 @@ mod shape;
 
 pub use camera::{Camera, Orthographic, Place};
 pub use error::SceneError;
-pub use material::{Finish, Glass, Material, MaterialError, NormalMap, Paint, Refraction};
+pub use material::{
+    Finish, Glass, Material, MaterialError, NormalMap, Paint, PictureKind, PictureReader, PictureSource, Refraction,
+};
 pub use model::{
     EXTENSIONS as MODEL_EXTENSIONS, Model, ModelCamera, ModelError, ModelFault, ModelLens, ModelSettings, Placing,
 };
 pub use picture::{Background, picture};
 pub use ray::{Normal, Ray, RayChange};
 pub use scene::{Object, Part, Scene};
-pub use scene_file::{FileCamera, Located, NamedWorld, PictureKind, SceneFile, SceneFileError, SceneReader};
+pub use scene_file::{FileCamera, Located, NamedWorld, SceneFile, SceneFileError, SceneReader};
 pub use shade::{Chrome, Highlight, LightMaps, Proxy, Sky, Surroundings, Walls};
 pub use shape::{Face, Mesh, MeshError, Normals, Shape, Sphere};

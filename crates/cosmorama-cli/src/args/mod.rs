@@ -18,7 +18,7 @@ use cosmorama_spec::SpecKind;
 
 pub(crate) use compare::{CompareArgs, FiltersArgs, Region};
 pub(crate) use convert::{ConvertArgs, OutputArgs, builtins};
-pub(crate) use demo::{DemoArgs, FiguresArgs};
+pub(crate) use demo::{DemoArgs, FiguresArgs, PlatesArgs};
 pub(crate) use explain::ExplainArgs;
 pub(crate) use help::{CompletionsArgs, HelpArgs, LISTS, ManArgs, SPEC_TOPIC};
 pub(crate) use info::{InfoArgs, VerifyArgs};
@@ -27,7 +27,9 @@ pub(crate) use light::{
     SunArgs, TableArgs, Unit,
 };
 pub(crate) use parse::progress::ProgressStyle;
-pub(crate) use shade::{BackgroundName, CameraName, MaterialName, ObjectName, Point, RefractName, ShadeArgs};
+pub(crate) use shade::{
+    BackgroundName, CameraName, MaterialName, ObjectName, OcclusionName, Point, RefractName, ShadeArgs,
+};
 
 /// Example commands in the program's own help.
 const EXAMPLES: [&str; 3] = [
@@ -37,11 +39,12 @@ const EXAMPLES: [&str; 3] = [
 ];
 
 /// All verbs with their examples.
-const VERBS: [(&str, &[&str]); 13] = [
+const VERBS: [(&str, &[&str]); 14] = [
     ("demo", &demo::EXAMPLES),
     ("convert", &convert::EXAMPLES),
     ("light", &light::EXAMPLES),
     ("shade", &shade::EXAMPLES),
+    ("plates", &demo::PLATES_EXAMPLES),
     ("info", &info::EXAMPLES),
     ("explain", &explain::EXAMPLES),
     ("compare", &compare::EXAMPLES),
@@ -82,6 +85,8 @@ pub(crate) enum Verb {
     Light(LightArgs),
     /// Put mirrors and matt things under a world
     Shade(Box<ShadeArgs>),
+    /// Make the plates and figures of the paper on world projections anew
+    Plates(PlatesArgs),
     /// Tell what a file or a face set is
     Info(InfoArgs),
     /// Tell what a conversion will do before it does it, in text and diagrams

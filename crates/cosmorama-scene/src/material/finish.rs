@@ -74,6 +74,28 @@ impl NormalMap {
         Self { map: Arc::new(Texture::new(normals, wrap)), scale }
     }
 
+    /// Returns the map of a picture of heights, or of normals if it is not grey: files of OBJ name both alike. A height of one
+    /// over the width of a texel is a slope of `scale`.
+    pub fn of_bumps(picture: &Image<Rgba>, wrap: [Wrap; 2], scale: f64) -> Self {
+        let is_grey = |pixel: &Rgba| pixel.0[0] == pixel.0[1] && pixel.0[1] == pixel.0[2];
+        if !picture.pixels().iter().all(is_grey) {
+            return Self::new(picture, wrap, scale);
+        }
+        let height = |i: i64, j: i64| {
+            let (column, row) = (wrap[0].texel(i, picture.width()), wrap[1].texel(j, picture.height()));
+            picture.get(column, row).0[0]
+        };
+        let normal = |i: usize, j: usize| {
+            let (i, j) = (i as i64, j as i64);
+            let across = 0.5 * (height(i + 1, j) - height(i - 1, j));
+            let upward = 0.5 * (height(i, j - 1) - height(i, j + 1));
+            let [x, y, z] = Vec3::new(-across, -upward, 1.0).normalize().to_array();
+            Rgba::opaque(x, y, z)
+        };
+        let normals = Image::from_fn(picture.width(), picture.height(), normal);
+        Self { map: Arc::new(Texture::new(normals, wrap)), scale }
+    }
+
     /// Returns the normals.
     pub(crate) fn map(&self) -> &Texture {
         &self.map

@@ -2,6 +2,7 @@
 
 mod finish;
 mod glass;
+mod picture;
 
 use std::sync::Arc;
 
@@ -9,6 +10,7 @@ use thiserror::Error;
 
 pub use finish::{Finish, NormalMap, Paint};
 pub use glass::{Glass, Refraction};
+pub use picture::{PictureKind, PictureReader, PictureSource};
 
 /// Treatment of light by a surface: dc·D + sc·S (Greene 1986, section 5).
 ///

@@ -2,6 +2,7 @@ use cosmorama::camera::{CameraModel, FieldOfView, PerspectiveCamera, Placement, 
 use cosmorama::sphere::{Angle, Orientation};
 use glam::DVec3;
 
+use super::Placing;
 use crate::camera::{Camera, Orthographic};
 use crate::error::SceneError;
 
@@ -38,6 +39,22 @@ pub enum ModelLens {
 }
 
 impl ModelCamera {
+    /// Returns the camera of a model that is placed.
+    pub(super) fn placed(&self, placing: &Placing) -> Self {
+        let lens = match self.lens {
+            ModelLens::Orthographic { height, aspect } => {
+                ModelLens::Orthographic { height: height * placing.scale, aspect }
+            }
+            perspective @ ModelLens::Perspective { .. } => perspective,
+        };
+        Self {
+            name: self.name.clone(),
+            eye: placing.point(self.eye),
+            orientation: self.orientation.within(placing.turn),
+            lens,
+        }
+    }
+
     /// Returns the rows of a picture of so many columns.
     pub fn rows(&self, columns: usize) -> usize {
         /// Shape of pictures of cameras that have none of their own.

@@ -12,7 +12,7 @@ use std::sync::Arc;
 use cosmorama::sphere::{Angle, Orientation};
 use glam::DVec3;
 
-use crate::material::Material;
+use crate::material::{Material, PictureReader};
 use crate::scene::{Object, Part};
 use crate::shape::{Face, Mesh, Normals, Shape};
 
@@ -59,10 +59,16 @@ pub struct Placing {
 }
 
 impl Placing {
-    fn face(&self, face: &Face) -> Face {
+    /// Returns the place of a point.
+    pub(crate) fn point(&self, point: DVec3) -> DVec3 {
+        self.origin + self.turn.rotation() * (point * self.scale)
+    }
+
+    /// Returns the place of a triangle.
+    pub(crate) fn face(&self, face: &Face) -> Face {
         let turn = self.turn.rotation();
         Face {
-            corners: face.corners.map(|corner| self.origin + turn * (corner * self.scale)),
+            corners: face.corners.map(|corner| self.point(corner)),
             normals: face.normals.map(|normals| normals.map(|normal| turn * normal)),
             tangents: face.tangents.map(|all| all.map(|tangent| (turn * tangent.truncate()).extend(tangent.w))),
             ..*face
@@ -92,24 +98,27 @@ impl Model {
     /// Memory of a triangle at most, while it is read: as a face twice, with its normals, coordinates, edges and tree.
     pub const TRIANGLE_BYTES: usize = 1500;
 
-    /// Reads a model.
+    /// Reads a model, with the pictures of its materials.
     ///
     /// # Errors
-    /// When the file cannot be read, is not as its extension says, or describes no surface.
-    pub fn read(path: &Path, settings: &ModelSettings) -> Result<Self, ModelError> {
-        read(path, settings).map_err(|why| ModelError { path: path.to_owned(), why })
+    /// When the file or a picture cannot be read, is not as its extension says, or describes no surface.
+    pub fn read(path: &Path, settings: &ModelSettings, pictures: &mut dyn PictureReader) -> Result<Self, ModelError> {
+        read(path, settings, pictures).map_err(|why| ModelError { path: path.to_owned(), why })
     }
 }
 
-fn read(path: &Path, settings: &ModelSettings) -> Result<Model, ModelFault> {
+fn read(path: &Path, settings: &ModelSettings, pictures: &mut dyn PictureReader) -> Result<Model, ModelFault> {
     let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
-    let Contents { faces, mut parts, cameras, mut notes, crease } = match extension.as_deref() {
-        Some("obj") => obj::read(path, settings)?,
-        Some("gltf" | "glb") => gltf::read(path, settings.most)?,
+    let Contents { faces, mut parts, mut cameras, mut notes, crease } = match extension.as_deref() {
+        Some("obj") => obj::read(path, settings, pictures)?,
+        Some("gltf" | "glb") => gltf::read(path, settings, pictures)?,
         _ => return Err(ModelFault::Extension),
     };
     let faces = match &settings.placing {
-        Some(placing) => faces.iter().map(|face| placing.face(face)).collect(),
+        Some(placing) => {
+            cameras.iter_mut().for_each(|camera| *camera = camera.placed(placing));
+            faces.iter().map(|face| placing.face(face)).collect()
+        }
         None => faces,
     };
     let normals = Normals { kept: settings.crease.is_none(), crease: settings.crease.unwrap_or(crease) };

@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 use cosmorama::sphere::Angle;
 use glam::{DVec2, DVec3};
 
-use super::mtl::Library;
+use super::mtl::{Entry, Library};
 use super::{Contents, ModelFault, ModelSettings};
-use crate::material::Material;
+use crate::material::{Material, PictureReader};
 use crate::scene::Part;
 use crate::shape::Face;
 
@@ -18,7 +18,7 @@ use crate::shape::Face;
 const CREASE: Angle = Angle::from_degrees(40.0);
 
 /// State of the reading of a file.
-struct Reader {
+struct Reader<'a> {
     points: Vec<DVec3>,
     normals: Vec<DVec3>,
     uvs: Vec<DVec2>,
@@ -30,7 +30,10 @@ struct Reader {
     parts: HashMap<(String, Option<String>), usize>,
     contents: Contents,
     /// Materials of the libraries so far; `None` if the file's own do not count.
-    materials: Option<HashMap<String, Material>>,
+    materials: Option<HashMap<String, Entry>>,
+    pictures: &'a mut dyn PictureReader,
+    /// Materials that parts have, with their pictures.
+    made: HashMap<String, Material>,
     /// Names of materials that no library has.
     lost: BTreeSet<String>,
     /// Folder of the file.
@@ -44,7 +47,11 @@ const LARGEST_LIBRARY: u64 = 1 << 24;
 type Corner = (usize, Option<usize>, Option<usize>);
 
 /// Reads the triangles of a file; other polygons are cut into triangles.
-pub(super) fn read(path: &Path, settings: &ModelSettings) -> Result<Contents, ModelFault> {
+pub(super) fn read(
+    path: &Path,
+    settings: &ModelSettings,
+    pictures: &mut dyn PictureReader,
+) -> Result<Contents, ModelFault> {
     let text = std::fs::read(path)?;
     let text = String::from_utf8_lossy(&text);
     let count = text.lines().map(triangles).sum();
@@ -52,7 +59,7 @@ pub(super) fn read(path: &Path, settings: &ModelSettings) -> Result<Contents, Mo
         return Err(ModelFault::TooLarge { count, most: settings.most });
     }
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-    let mut reader = Reader::new(folder, settings.material.is_none());
+    let mut reader = Reader::new(folder, settings.material.is_none(), pictures);
     for (number, line) in text.lines().enumerate() {
         reader.line(line).map_err(|why| ModelFault::Line { line: number + 1, why })?;
     }
@@ -68,8 +75,8 @@ fn triangles(line: &str) -> usize {
     if words.next() == Some("f") { words.count().saturating_sub(2) } else { 0 }
 }
 
-impl Reader {
-    fn new(folder: PathBuf, has_materials: bool) -> Self {
+impl<'a> Reader<'a> {
+    fn new(folder: PathBuf, has_materials: bool, pictures: &'a mut dyn PictureReader) -> Self {
         Self {
             points: Vec::new(),
             normals: Vec::new(),
@@ -79,6 +86,8 @@ impl Reader {
             parts: HashMap::new(),
             contents: Contents::new(CREASE),
             materials: has_materials.then(HashMap::new),
+            pictures,
+            made: HashMap::new(),
             lost: BTreeSet::new(),
             folder,
         }
@@ -131,7 +140,7 @@ impl Reader {
         if others.len() < 2 {
             return Err(format!("the face has {} corners; expected at least 3", corners.len()));
         }
-        let part = self.part();
+        let part = self.part()?;
         for pair in others.windows(2) {
             let face = [*first, pair[0], pair[1]];
             let normals = face.map(|corner| corner.2.map(|index| self.normals[index]));
@@ -162,18 +171,31 @@ impl Reader {
     }
 
     /// Returns the part that the lines are in.
-    fn part(&mut self) -> usize {
-        let count = self.parts.len();
-        let part = *self.parts.entry((self.group.clone(), self.material.clone())).or_insert(count);
-        if part == count {
-            let found = self.material.as_ref().zip(self.materials.as_ref()).map(|(name, all)| (name, all.get(name)));
-            if let Some((name, None)) = found {
-                self.lost.insert(name.clone());
-            }
-            let material = found.and_then(|(_, material)| material).cloned().unwrap_or(Material::MIRROR);
-            self.contents.parts.push(Part { name: self.group.clone(), material, world: 0 });
+    fn part(&mut self) -> Result<usize, String> {
+        let key = (self.group.clone(), self.material.clone());
+        if let Some(part) = self.parts.get(&key) {
+            return Ok(*part);
         }
-        part
+        let material = self.made()?;
+        let part = self.parts.len();
+        self.parts.insert(key, part);
+        self.contents.parts.push(Part { name: self.group.clone(), material, world: 0 });
+        Ok(part)
+    }
+
+    /// Returns the material of the lines; a mirror if they name none, or one that no library has.
+    fn made(&mut self) -> Result<Material, String> {
+        let Some((name, all)) = self.material.as_ref().zip(self.materials.as_ref()) else { return Ok(Material::MIRROR) };
+        if let Some(made) = self.made.get(name) {
+            return Ok(made.clone());
+        }
+        let Some(entry) = all.get(name) else {
+            self.lost.insert(name.clone());
+            return Ok(Material::MIRROR);
+        };
+        let made = entry.material(&self.folder, self.pictures).map_err(|why| format!("material {name}: {why}"))?;
+        self.made.insert(name.clone(), made.clone());
+        Ok(made)
     }
 
     /// Names parts by their materials where their groups do not tell them apart.

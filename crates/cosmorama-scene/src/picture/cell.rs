@@ -3,6 +3,7 @@ use cosmorama::raster::Rgba;
 
 use super::QUARTERS;
 use super::marks::Marks;
+use super::occlusion::openness;
 use super::sampled::Sighting;
 use super::small::Reflection;
 use crate::camera::Camera;
@@ -71,6 +72,9 @@ const AT_ONCE: usize = 1;
 const AT_OUTLINES: usize = 3;
 const MOST: usize = 6;
 
+/// Halvings of a pixel of a mesh at most: then it has as many rays as one that an edge crosses.
+const MOST_OF_MESHES: usize = 3;
+
 /// Coverage below which a part has no light of its own.
 const LEAST: f64 = 1e-6;
 
@@ -119,12 +123,14 @@ impl<'a> Pixel<'a> {
         }
     }
 
-    /// Returns the light of a cell in which one surface is seen, of a ray through its middle.
-    pub(super) fn smooth(&self, cell: Cell, things: &[usize]) -> Rgba {
-        let Some(Sighting { ray, object, hit }) = self.sighting(cell.centre, things) else { return Rgba::TRANSPARENT };
+    /// Returns the light of a cell in which one surface is seen, of what a ray through its middle meets.
+    pub(super) fn smooth(&self, cell: Cell, met: Option<Sighting>, things: &[usize]) -> Rgba {
+        let Some(Sighting { ray, object, hit }) = met else { return Rgba::TRANSPARENT };
         let wall = self.scene.objects[object].shape.wall(&ray.scaled(cell.side), &hit);
-        let seen = Seen { object, wall: &wall, pixel: cell.pixel, depth: cell.depth, may_split: true };
-        self.lit(&seen).unwrap_or_else(|| mean(cell, |quarter| self.smooth(quarter, things)))
+        let may_split = cell.depth < MOST_OF_MESHES;
+        let seen = Seen { object, wall: &wall, pixel: cell.pixel, depth: cell.depth, may_split };
+        let quarter = |quarter: Cell| self.smooth(quarter, self.sighting(quarter.centre, things), things);
+        self.lit(&seen).unwrap_or_else(|| mean(cell, quarter))
     }
 
     /// Tells what a beam meets.
@@ -178,7 +184,10 @@ impl<'a> Pixel<'a> {
         let object = &self.scene.objects[seen.object];
         let part = &object.parts[seen.wall.part];
         let world = &self.worlds[part.world];
-        let surface = world.surface(seen.wall, &part.material);
+        let mut surface = world.surface(seen.wall, &part.material);
+        if world.has_occlusion() && surface.is_matt() {
+            surface = surface.shadowed(openness(self.scene, seen.wall));
+        }
         let whole = self.reflections[seen.object].as_ref().and_then(|reflection| reflection.light(seen.pixel));
         if let Some(reflected) = whole {
             return Some(world.shade(&surface, reflected));

@@ -2,6 +2,7 @@
 
 mod cell;
 mod marks;
+mod occlusion;
 mod sampled;
 mod small;
 mod tiles;

@@ -47,9 +47,10 @@ impl Pixel<'_> {
             return tile.pixels().filter_map(|(i, j)| Some(([i, j], self.light(i, j, things)?))).collect();
         }
         let around = tile.grown(self.camera);
-        let surface = |(i, j)| self.surface(PixelPoint::centre(i, j), things);
-        let surfaces: Vec<Option<(usize, u32)>> = around.pixels().map(surface).collect();
-        let at = |i: usize, j: usize| around.place(i, j).map(|place| surfaces[place]);
+        let sighting = |(i, j)| self.sighting(PixelPoint::centre(i, j), things);
+        let sightings: Vec<Option<Sighting>> = around.pixels().map(sighting).collect();
+        let surface = |met: &Sighting| (met.object, self.scene.objects[met.object].shape.piece(&met.hit));
+        let at = |i: usize, j: usize| around.place(i, j).map(|place| sightings[place].as_ref().map(surface));
         let is_broken = |i: usize, j: usize| {
             let own = at(i, j);
             let beside = [at(i.wrapping_sub(1), j), at(i + 1, j), at(i, j.wrapping_sub(1)), at(i, j + 1)];
@@ -59,8 +60,8 @@ impl Pixel<'_> {
             if self.marks.has(i, j) || is_broken(i, j) || self.is_outline(i, j, things) {
                 return self.sampled([i, j], things).map(|light| ([i, j], light));
             }
-            at(i, j).flatten()?;
-            let light = self.smooth(Cell::pixel(i, j), things);
+            let met = around.place(i, j).and_then(|place| sightings[place])?;
+            let light = self.smooth(Cell::pixel(i, j), Some(met), things);
             Some(([i, j], light * self.camera.coverage(i, j) as f32))
         };
         tile.pixels().filter_map(light).collect()
@@ -72,12 +73,6 @@ impl Pixel<'_> {
         let hits = things.iter().filter_map(|object| Some((*object, self.scene.objects[*object].shape.meet(&ray)?)));
         let nearest = hits.min_by(|a, b| a.1.distance.total_cmp(&b.1.distance));
         nearest.map(|(object, hit)| Sighting { ray, object, hit })
-    }
-
-    /// Returns which thing, and which piece of it, is seen.
-    fn surface(&self, place: PixelPoint, things: &[usize]) -> Option<(usize, u32)> {
-        let Sighting { object, hit, .. } = self.sighting(place, things)?;
-        Some((object, self.scene.objects[object].shape.piece(&hit)))
     }
 
     /// Returns whether the outline of a sphere crosses a pixel.

@@ -9,16 +9,7 @@ use toml::Spanned;
 use super::SceneReader;
 use super::error::{SceneFileError, Source};
 use super::written::{Kind, MaterialEntry, WrapName};
-use crate::material::{Finish, Glass, Material, NormalMap, Paint};
-
-/// Content of a picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PictureKind {
-    /// Colours, to be decoded to light.
-    Colour,
-    /// Numbers, which are what their codes are.
-    Numbers,
-}
+use crate::material::{Finish, Glass, Material, NormalMap, Paint, PictureKind, PictureSource};
 
 /// Roughness of metallic-roughness, unless given.
 const ROUGHNESS: f64 = 0.5;
@@ -96,7 +87,7 @@ impl MaterialEntry {
         let wrap = [self.wrap.wrap(); 2];
         let mut picture = |path: &Option<Spanned<PathBuf>>, kind: PictureKind| {
             let Some(path) = path else { return Ok(None) };
-            let found = reader.picture(&source.folder().join(path.get_ref()), kind);
+            let found = reader.picture(PictureSource::File(&source.folder().join(path.get_ref())), kind);
             found.map(Some).map_err(|message| source.error(Some(path.span()), message))
         };
         let map = |picture: Image<Rgba>| Arc::new(Texture::new(picture, wrap));

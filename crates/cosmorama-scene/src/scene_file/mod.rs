@@ -8,12 +8,11 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use cosmorama::raster::{Image, Rgba};
 use cosmorama::sphere::{Angle, Orientation};
 use cosmorama_spec::did_you_mean;
 use toml::Spanned;
 
-use crate::material::Material;
+use crate::material::{Material, PictureReader};
 use crate::model::{ModelSettings, Placing};
 use crate::scene::{Object, Scene};
 use crate::shade::Proxy;
@@ -23,7 +22,6 @@ use error::Source;
 use written::{ObjectEntry, Written};
 
 pub use error::SceneFileError;
-pub use material::PictureKind;
 
 /// A scene file: what stands under which worlds, and how it is seen.
 ///
@@ -31,16 +29,18 @@ pub use material::PictureKind;
 /// use std::path::Path;
 ///
 /// use cosmorama::raster::{Image, Rgba};
-/// use cosmorama_scene::{ModelSettings, Object, PictureKind, SceneFile, SceneReader};
+/// use cosmorama_scene::{ModelSettings, Object, PictureKind, PictureReader, PictureSource, SceneFile, SceneReader};
 ///
 /// /// A reader for files that name none.
 /// struct Nothing;
 ///
-/// impl SceneReader for Nothing {
-///     fn picture(&mut self, _: &Path, _: PictureKind) -> Result<Image<Rgba>, String> {
+/// impl PictureReader for Nothing {
+///     fn picture(&mut self, _: PictureSource, _: PictureKind) -> Result<Image<Rgba>, String> {
 ///         Err("no pictures here".to_owned())
 ///     }
+/// }
 ///
+/// impl SceneReader for Nothing {
 ///     fn model(&mut self, _: &Path, _: ModelSettings) -> Result<Object, String> {
 ///         Err("no models here".to_owned())
 ///     }
@@ -63,13 +63,7 @@ pub struct SceneFile {
 }
 
 /// Reader of the files that a scene file names.
-pub trait SceneReader {
-    /// Reads a picture.
-    ///
-    /// # Errors
-    /// When it cannot be read; the reason is told behind the line that names it.
-    fn picture(&mut self, path: &Path, kind: PictureKind) -> Result<Image<Rgba>, String>;
-
+pub trait SceneReader: PictureReader {
     /// Reads a model, of as many triangles as the reader allows.
     ///
     /// # Errors
@@ -293,6 +287,9 @@ impl ObjectEntry {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use cosmorama::raster::{Image, Rgba};
+
+    use crate::material::{PictureKind, PictureSource};
     use crate::scene::Part;
     use glam::DVec3;
 
@@ -326,11 +323,13 @@ world = "room"
 
     struct Nothing;
 
-    impl SceneReader for Nothing {
-        fn picture(&mut self, _: &Path, _: PictureKind) -> Result<Image<Rgba>, String> {
+    impl PictureReader for Nothing {
+        fn picture(&mut self, _: PictureSource, _: PictureKind) -> Result<Image<Rgba>, String> {
             Err("no such picture".to_owned())
         }
+    }
 
+    impl SceneReader for Nothing {
         fn model(&mut self, path: &Path, settings: ModelSettings) -> Result<Object, String> {
             Err(format!("no such model: {} at {}", path.display(), settings.placing.unwrap().origin))
         }

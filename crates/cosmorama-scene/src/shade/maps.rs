@@ -1,6 +1,6 @@
 use std::f64::consts::FRAC_PI_2;
 
-use cosmorama::camera::{CameraModel, EquirectCamera, FieldOfView, PerspectiveCamera, Placement};
+use cosmorama::camera::{CameraModel, EquirectCamera, FieldOfView, PerspectiveCamera, Placement, View};
 use cosmorama::filter::{FilterKind, FilterSettings, Kernel};
 use cosmorama::lighting::{Lobe, LobeAverages, LobeError, PreparedLight};
 use cosmorama::raster::{Image, Rgba};
@@ -15,7 +15,7 @@ use crate::error::SceneError;
 use crate::material::Material;
 use crate::scene::Scene;
 
-/// Small panoramas of a world's light, filtered beforehand: what falls on matt surfaces, and what rough ones reflect
+/// A world's light, filtered beforehand: a small panorama of what falls on matt surfaces, and cubes of what rough ones reflect
 /// (Greene 1986, section 7).
 #[derive(Debug)]
 pub struct LightMaps {
@@ -28,7 +28,7 @@ pub struct LightMaps {
     pub(super) albedo: Option<AlbedoTable>,
 }
 
-/// A panorama of a world's light.
+/// A map of a world's light.
 #[derive(Debug)]
 pub(super) struct LightMap {
     pub(super) world: World,
@@ -38,9 +38,10 @@ pub(super) struct LightMap {
 /// Width of the map of matt surfaces. Linear interpolation between its texels errs by less than 4·10⁻⁴.
 const MATT: usize = 128;
 
-/// Texels of a map of rough reflection across an angle of α, and the least and greatest width.
+/// Texels of a map of rough reflection across an angle of α in the middle of a face, and the least and greatest edge. Faces have
+/// no poles, around which a panorama's texels would be weighed one by one.
 const ACROSS_ALPHA: f64 = 2.5;
-const WIDTHS: (usize, usize) = (96, 1024);
+const EDGES: (usize, usize) = (32, 328);
 
 impl LightMaps {
     /// Gathers the maps that the materials of a scene's things need, of those that stand under this world, by its number.
@@ -68,11 +69,11 @@ impl LightMaps {
         let all: Vec<Lobe> = is_matt.then_some(Lobe::LAMBERT).into_iter().chain(rough()).collect();
         let prepared = PreparedLight::new(world, light, &all)?;
         let map = |(alpha, lobe): &(f64, Lobe)| {
-            let width = (ACROSS_ALPHA * std::f64::consts::TAU / alpha) as usize;
-            (*alpha, LightMap::of(&prepared, (lobe, unseen), width.clamp(WIDTHS.0, WIDTHS.1)))
+            let edge = ((2.0 * ACROSS_ALPHA / alpha) as usize).clamp(EDGES.0, EDGES.1);
+            (*alpha, LightMap::on_cube(edge, |view| prepared.picture(view, lobe, unseen)))
         };
         Ok(Self {
-            diffuse: is_matt.then(|| LightMap::of(&prepared, (&Lobe::LAMBERT, unseen), MATT)),
+            diffuse: is_matt.then(|| LightMap::panorama(&prepared, unseen)),
             exact: exact.iter().map(map).collect(),
             chain: chain.iter().map(map).collect(),
             ..empty
@@ -99,24 +100,29 @@ impl LightMap {
         }
         let edge = ((FRAC_PI_2 / sky.world.texel_pitch()).ceil() as usize).next_power_of_two().min(EDGE);
         let filter = FilterSettings { kind: FilterKind::EwaPyramid, kernel: Kernel::LIGHT, anti_ringing: false };
+        let picture = |view: &View| Resampler { world: sky.world, target: view, filter }.render(sky.light.texels());
+        Some(Self::on_cube(edge, picture))
+    }
+
+    /// Makes a map on the faces of a cube.
+    fn on_cube(edge: usize, picture: impl Fn(&View) -> Image<Rgba>) -> Self {
         let face = |face: CubeFace| {
             let camera = CameraModel::from(PerspectiveCamera::new(FieldOfView::Horizontal(Angle::from_degrees(90.0))));
             let placement = Placement { orientation: face.orientation(), ..Placement::new(camera) };
             let view = placement.view(edge, edge).expect("a face of more than no pixels");
-            let resampler = Resampler { world: sky.world, target: &view, filter };
-            let picture = resampler.render(sky.light.texels());
+            let picture = picture(&view);
             (face.name().to_owned(), view, picture)
         };
-        let (world, light) = World::from_pictures(CubeFace::ALL.map(face)).ok()?;
-        Some(Self { world, light })
+        let (world, light) = World::from_pictures(CubeFace::ALL.map(face)).expect("six faces");
+        Self { world, light }
     }
 
-    fn of(light: &PreparedLight, (lobe, unseen): (&Lobe, Rgba), width: usize) -> Self {
-        let view = CameraModel::Equirect(EquirectCamera::default()).view(width, width / 2);
+    /// Makes a panorama of what falls on matt surfaces.
+    fn panorama(light: &PreparedLight, unseen: Rgba) -> Self {
+        let view = CameraModel::Equirect(EquirectCamera::default()).view(MATT, MATT / 2);
         let view = view.expect("a panorama of more than no pixels");
-        let picture: Image<Rgba> = light.picture(&view, lobe, unseen);
-        let world = World::new([("light".to_owned(), view)]).expect("one view");
-        let light = Light::new(&world, picture.into_pixels()).expect("light of this view");
+        let picture = light.picture(&view, &Lobe::LAMBERT, unseen);
+        let (world, light) = World::from_pictures([("light".to_owned(), view, picture)]).expect("one view");
         Self { world, light }
     }
 }

@@ -38,6 +38,17 @@ impl Gloss {
 }
 
 impl Surface {
+    /// Returns whether some light is scattered.
+    pub(crate) fn is_matt(&self) -> bool {
+        self.diffuse != DVec3::ZERO
+    }
+
+    /// Returns the surface where only a part of the light falls on it.
+    #[must_use]
+    pub(crate) fn shadowed(self, open: f64) -> Self {
+        Self { diffuse: self.diffuse * open, ..self }
+    }
+
     /// Returns a material where a ray meets it.
     pub(super) fn of(wall: &Wall, material: &Material, albedo: Option<&AlbedoTable>) -> Self {
         let (Some(finish), Some(albedo)) = (&material.finish, albedo) else {
@@ -71,7 +82,7 @@ impl Surface {
 
 /// Looks up a picture; white without one.
 fn looked_up(map: Option<&Texture>, chart: Option<&Chart>) -> Rgba {
-    map.zip(chart).map_or(Rgba([1.0; 4]), |(map, chart)| map.average(chart.at, chart.jacobian()))
+    map.zip(chart).map_or(Rgba([1.0; 4]), |(map, chart)| chart.average(map))
 }
 
 fn painted(paint: &Paint, chart: Option<&Chart>) -> DVec3 {
@@ -83,7 +94,7 @@ fn painted(paint: &Paint, chart: Option<&Chart>) -> DVec3 {
 /// vectors is shorter than one by half of their variance (M. Toksvig, *Mipmapping normal maps*, 2005).
 fn dented(finish: &Finish, normal: &Normal, chart: Option<&Chart>) -> (Normal, f64) {
     let Some((map, chart)) = finish.normal_map.as_ref().zip(chart) else { return (*normal, 0.0) };
-    let Rgba([x, y, z, _]) = map.map().average(chart.at, chart.jacobian());
+    let Rgba([x, y, z, _]) = chart.average(map.map());
     let mean = DVec3::new(x.into(), y.into(), z.into());
     let sideways = (chart.tangent * mean.x + chart.bitangent * mean.y) * map.scale;
     let unit = (sideways + normal.unit * mean.z).try_normalize().unwrap_or(normal.unit);

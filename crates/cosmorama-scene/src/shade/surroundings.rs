@@ -31,6 +31,8 @@ pub struct Surroundings<'a> {
     proxy: Option<Proxy>,
     /// Rotation from the things to the world.
     turn: DMat3,
+    /// Whether things hide light from what is matt.
+    occlusion: bool,
 }
 
 /// Kernel of parts of pixels: [`Kernel::LIGHT`], whose weights add to one over parts side by side. Where parts are less
@@ -87,6 +89,7 @@ impl<'a> Surroundings<'a> {
             chrome: Chrome::earth_and_sky(),
             proxy: None,
             turn: DMat3::IDENTITY,
+            occlusion: false,
         })
     }
 
@@ -100,6 +103,17 @@ impl<'a> Surroundings<'a> {
     #[must_use]
     pub fn with_proxy(self, proxy: Option<Proxy>) -> Self {
         Self { proxy, ..self }
+    }
+
+    /// Returns the surroundings in which things hide light from what is matt, or do not, as by default.
+    #[must_use]
+    pub fn with_occlusion(self, occlusion: bool) -> Self {
+        Self { occlusion, ..self }
+    }
+
+    /// Returns whether things hide light from what is matt.
+    pub(crate) fn has_occlusion(&self) -> bool {
+        self.occlusion
     }
 
     /// Turns the things about the y axis, anticlockwise as seen from above, and not the world.

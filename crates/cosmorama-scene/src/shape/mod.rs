@@ -70,6 +70,17 @@ impl Shape {
         }
     }
 
+    /// Returns whether a ray that leaves a place, perhaps on its own surface, meets it.
+    pub(crate) fn is_met(&self, ray: &Ray) -> bool {
+        /// Part of the radius within which a ray is still where it starts.
+        const AWAY: f64 = 1e-6;
+        let beyond = AWAY * self.ball().radius;
+        match self {
+            Self::Sphere(sphere) => sphere.meet(ray, beyond).is_some(),
+            Self::Mesh(mesh) => mesh.meet(ray, beyond).is_some(),
+        }
+    }
+
     /// Returns the surface where a ray meets it.
     pub(crate) fn wall(&self, ray: &Ray, hit: &Hit) -> Wall {
         match self {

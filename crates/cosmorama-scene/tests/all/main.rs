@@ -3,6 +3,7 @@
 
 mod meshes;
 mod models;
+mod occlusion;
 mod spheres;
 mod textures;
 mod worlds;

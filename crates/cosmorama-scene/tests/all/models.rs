@@ -3,9 +3,26 @@
 use std::path::PathBuf;
 
 use cosmorama::camera::PixelPoint;
-use cosmorama_scene::{Finish, Material, Model, ModelSettings, Shape};
+use cosmorama::filter::{Texture, Wrap};
+use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
+use cosmorama_scene::{Finish, Material, Model, ModelSettings, PictureKind, PictureReader, PictureSource, Shape};
 
 const SETTINGS: ModelSettings = ModelSettings { crease: None, material: None, most: 1_000_000, placing: None };
+
+/// Reads pictures as the program does.
+struct Files;
+
+impl PictureReader for Files {
+    fn picture(&mut self, source: PictureSource, kind: PictureKind) -> Result<Image<Rgba>, String> {
+        let limits = cosmorama_io::Limits::default();
+        let file = match source {
+            PictureSource::File(path) => cosmorama_io::read(path, &limits),
+            PictureSource::Bytes(bytes) => cosmorama_io::read_from(std::io::Cursor::new(bytes), "inside", &limits),
+        };
+        let file = file.map_err(|error| error.to_string())?;
+        Ok(if kind == PictureKind::Colour { file.to_light() } else { file.image.to_light(&Transfer::Linear) })
+    }
+}
 
 /// A file that is removed after the test.
 struct File(PathBuf);
@@ -22,7 +39,7 @@ impl File {
     }
 
     fn read(&self) -> Result<Model, String> {
-        Model::read(&self.0, &SETTINGS).map_err(|error| error.to_string())
+        Model::read(&self.0, &SETTINGS, &mut Files).map_err(|error| error.to_string())
     }
 }
 
@@ -48,7 +65,7 @@ fn obj_files_are_read() {
     assert_eq!(mesh.count(), 5);
     assert_eq!(mesh.ball().centre.to_array(), [0.5, 0.5, 0.0]);
     let material = Some(Material::MATTE);
-    let matt = Model::read(&file.0, &ModelSettings { material, ..SETTINGS }).unwrap();
+    let matt = Model::read(&file.0, &ModelSettings { material, ..SETTINGS }, &mut Files).unwrap();
     assert!(matt.object.parts.iter().all(|part| part.material == Material::MATTE));
 }
 
@@ -71,9 +88,9 @@ fn faults_of_obj_files_name_the_line() {
         let error = File::new("wrong.obj", &format!("{SQUARE}{line}\n")).read().unwrap_err();
         assert!(error.contains(says) && error.contains("wrong.obj"), "{line}: {error}");
     }
-    let error = Model::read("nothing.obj".as_ref(), &SETTINGS).unwrap_err().to_string();
+    let error = Model::read("nothing.obj".as_ref(), &SETTINGS, &mut Files).unwrap_err().to_string();
     assert!(error.contains("nothing.obj"), "{error}");
-    let error = Model::read("nothing.stl".as_ref(), &SETTINGS).unwrap_err().to_string();
+    let error = Model::read("nothing.stl".as_ref(), &SETTINGS, &mut Files).unwrap_err().to_string();
     assert!(error.contains(".obj"), "{error}");
 }
 
@@ -189,7 +206,7 @@ fn finish(model: &Model, part: usize) -> &Finish {
 #[test]
 fn materials_of_obj_are_read_by_their_numbers() {
     let library = "\u{b}\n\u{3000}\n# a library\nnewmtl red\nKd 0.7 0.1 0.1\nKs 0.02\nNs 98\nKe 0 0 2\nillum 2\nd 1.0\n\
-                   newmtl steel\nKd 0.1 0.1 0.1\nKs 0.6 0.55 0.5\nmap_Kd none.png\nbump none.png\nd 0.5\nnewmtl plain\nKd spectral x.rfl\n";
+                   newmtl steel\nKd 0.1 0.1 0.1\nKs 0.6 0.55 0.5\nmap_Ks none.png\nmap_Ns none.png\nd 0.5\nnewmtl plain\nKd spectral x.rfl\n";
     let library = File::new("colours.mtl", library);
     let name = library.0.file_name().unwrap().to_string_lossy();
     let text = format!(
@@ -207,10 +224,10 @@ fn materials_of_obj_are_read_by_their_numbers() {
     assert_eq!(finish(&model, 2).base.colour, [0.8; 3]);
     assert_eq!(model.object.parts[3].material, Material::MIRROR);
     let notes = model.notes.join("; ");
-    assert!(notes.contains("not read: Kd, bump, d, map_Kd") && notes.contains("material gone"), "{notes}");
+    assert!(notes.contains("not read: Kd, d, map_Ks, map_Ns") && notes.contains("material gone"), "{notes}");
     // Where another material is given, libraries do not count.
     let material = Some(Material::MATTE);
-    let matt = Model::read(&file.0, &ModelSettings { material, ..SETTINGS }).unwrap();
+    let matt = Model::read(&file.0, &ModelSettings { material, ..SETTINGS }, &mut Files).unwrap();
     assert!(matt.notes.is_empty(), "{:?}", matt.notes);
     let wrong = File::new("wrong.mtl", "newmtl x\nKd -1 0 0\n");
     let name = wrong.0.file_name().unwrap().to_string_lossy();
@@ -231,4 +248,93 @@ fn materials_of_gltf_are_read_by_their_numbers() {
     assert_eq!((found.base.colour, found.emissive.colour), ([0.5, 0.25, 1.0], [0.25, 0.0, 0.5]));
     assert_eq!((found.metallic, found.roughness), (0.5, 0.75));
     assert!(model.notes.join("; ").contains("KHR_materials_unlit is not applied"), "{:?}", model.notes);
+}
+
+/// A picture of two texels, red on the left and green on the right, or grey in both, as PNG.
+fn two_texels(name: &str, is_grey: bool) -> File {
+    let colour = |i: usize| if is_grey { Rgba::opaque(0.5, 0.5, 0.5) } else { Rgba::opaque(1.0 - i as f32, i as f32, 0.0) };
+    let picture = Image::from_fn(2, 1, |i, _| colour(i));
+    let encoded = EncodedImage::encode(&picture, Channels::Rgb, Depth::Eight, &Transfer::Srgb);
+    let path = std::env::temp_dir().join(format!("cosmorama-{}-{name}", std::process::id()));
+    cosmorama_io::write(&path, &encoded, &cosmorama_io::WriteOptions::default()).unwrap();
+    File(path)
+}
+
+/// The name of a file without its folder.
+fn name_of(file: &File) -> String {
+    file.0.file_name().unwrap().to_string_lossy().into_owned()
+}
+
+fn first_texel(map: &Option<std::sync::Arc<Texture>>) -> [f32; 4] {
+    map.as_ref().expect("a picture").picture().get(0, 0).0
+}
+
+#[test]
+fn pictures_of_obj_materials_are_read() {
+    let (colours, bumps) = (two_texels("two texels.png", false), two_texels("grey.png", true));
+    let library = format!(
+        "newmtl a\nKd 0.5 0.5 0.5\nmap_Kd -clamp on {}\nmap_Bump -bm 0.25 {}\nnewmtl b\nKe 0 0 0\nmap_Ke -s 2 2 {}\nmap_Kd gone.png\n",
+        name_of(&colours),
+        name_of(&bumps),
+        name_of(&colours)
+    );
+    let library = File::new("pictures.mtl", &library);
+    let text = format!("{SQUARE}mtllib {}\nusemtl a\nf 1/1 2/2 3/1\n", name_of(&library));
+    let file = File::new("pictures.obj", &text);
+    let model = file.read().unwrap();
+    let found = finish(&model, 0);
+    assert_eq!((found.base.colour, first_texel(&found.base.map)), ([0.5; 3], [1.0, 0.0, 0.0, 1.0]));
+    assert_eq!(found.base.map.as_ref().map(|map| map.wrap()), Some([Wrap::Clamp; 2]));
+    assert_eq!(found.normal_map.as_ref().map(|map| map.scale), Some(0.25));
+    let notes = model.notes.join("; ");
+    assert!(notes.contains("not read: map_Ke"), "scales of pictures are told: {notes}");
+    // Nobody asks for the pictures of materials that no part has.
+    let error = File::new("lost.obj", &format!("{text}usemtl b\nf 1 2 3\n")).read().unwrap_err();
+    assert!(error.contains("line 13: material b: ") && error.contains("gone.png"), "{error}");
+}
+
+#[test]
+fn pictures_of_gltf_materials_are_read() {
+    let picture = two_texels("texels.png", false);
+    let bytes = std::fs::read(&picture.0).unwrap();
+    let inside = format!("data:image/png;base64,{}", base64(&bytes));
+    let text = SQUARES.replacen(r#""mode": 5"#, r#""mode": 5, "material": 0"#, 1).replacen(
+        r#""asset""#,
+        r#""images": [{"uri": "FILE"}, {"uri": "INSIDE"}], "samplers": [{"wrapS": 33071, "wrapT": 33648}],
+           "textures": [{"source": 0, "sampler": 0}, {"source": 1}],
+           "materials": [{"emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 1}, "normalTexture": {"index": 1, "scale": 0.5},
+           "occlusionTexture": {"index": 0},
+           "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}, "metallicRoughnessTexture": {"index": 1}}}], "asset""#,
+        1,
+    );
+    let text = text.replace("FILE", &name_of(&picture)).replace("INSIDE", &inside);
+    let model = Gltf::new("pictured", &text).file.read().unwrap();
+    let found = finish(&model, 0);
+    for map in [&found.base.map, &found.metal_map, &found.emissive.map] {
+        assert_eq!(first_texel(map), [1.0, 0.0, 0.0, 1.0]);
+    }
+    assert_eq!(found.base.map.as_ref().map(|map| map.wrap()), Some([Wrap::Clamp, Wrap::Mirror]));
+    assert_eq!(found.normal_map.as_ref().map(|map| map.scale), Some(0.5));
+    assert!(model.notes.join("; ").contains("ambient occlusion"), "{:?}", model.notes);
+    for (to, says) in [("gone.png", "gone.png"), ("data:image/png;base64,AAAA", "image 0 cannot be read"), ("https://a.b/c.png", "image 0 is at")] {
+        let error = Gltf::new("lost", &text.replacen(&name_of(&picture), to, 1)).file.read().unwrap_err();
+        assert!(error.contains(says) && error.contains("image 0"), "{to}: {error}");
+    }
+    let bare = text.replacen(&format!(r#"{{"uri": "{}"}}"#, name_of(&picture)), r#"{"bufferView": 0}"#, 1);
+    let error = Gltf::new("bare", &bare).file.read().unwrap_err();
+    assert!(error.contains("image 0 has no picture"), "{error}");
+    // Where another material is given, pictures are not asked for.
+    let lost = Gltf::new("unasked", &text.replacen(&name_of(&picture), "gone.png", 1));
+    let material = Some(Material::MATTE);
+    assert!(Model::read(&lost.file.0, &ModelSettings { material, ..SETTINGS }, &mut Files).is_ok());
+}
+
+fn base64(bytes: &[u8]) -> String {
+    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let group = |chunk: &[u8]| {
+        let bits = (0..3).fold(0, |bits, k| bits << 8 | u32::from(chunk.get(k).copied().unwrap_or(0)));
+        let letter = |k: usize| if k > chunk.len() { '=' } else { char::from(LETTERS[(bits >> (18 - 6 * k) & 63) as usize]) };
+        (0..4).map(letter).collect::<String>()
+    };
+    bytes.chunks(3).map(group).collect()
 }

@@ -89,7 +89,8 @@ pub(crate) fn material() -> Listed<MaterialName> {
 /// Reads a camera.
 pub(crate) fn camera() -> Listed<CameraName> {
     let parallel = ("orthographic", "parallel rays; orthographic:height=H");
-    Listed::new(SpecKind::all().map(|kind| (kind.name(), kind.about())).chain([parallel]))
+    let own = ("gltf", "a model's own camera, the first; gltf:NAME");
+    Listed::new(SpecKind::all().map(|kind| (kind.name(), kind.about())).chain([parallel, own]))
 }
 
 /// Reads the name of a transfer function.

@@ -4,23 +4,29 @@ use cosmorama::raster::Rgba;
 use cosmorama_scene::{Finish, Material, Paint};
 use cosmorama_spec::{Colour, nearest};
 
-/// Name of a material, or the numbers of one.
+/// Name of a material, or the numbers of one; `None` for those of a model's file.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct MaterialName(pub(crate) Material);
+pub(crate) struct MaterialName(pub(crate) Option<Material>);
 
 /// Numbers of metallic-roughness, as glTF names them.
 const KEYS: [&str; 6] = ["metallic", "roughness", "color", "emissive", "ior", "specular"];
 
 impl MaterialName {
     /// Names for help and completions.
-    pub(crate) const NAMES: [(&'static str, &'static str); 6] = [
+    pub(crate) const NAMES: [(&'static str, &'static str); 7] = [
         ("mirror", "reflects all light: dc 0, sc 1"),
         ("matte", "scatters all light: dc 1, sc 0"),
         ("mixed", "half of both: dc 0.5, sc 0.5"),
         ("glass", "reflects and refracts; --ior is its index"),
         ("chrome", "reflects a table of colours by elevation; --chrome is the table"),
+        ("own", "a model's own materials, with their pictures"),
         ("metallic=1,roughness=0.3,color=#ffcc66", "glTF's metal and insulators; also emissive, ior, specular"),
     ];
+
+    /// Returns whether it is chrome.
+    pub(crate) fn is_chrome(&self) -> bool {
+        self.0.as_ref().is_some_and(|material| material.chrome)
+    }
 }
 
 impl FromStr for MaterialName {
@@ -33,13 +39,14 @@ impl FromStr for MaterialName {
             "mixed" => Material::MIXED,
             "glass" => Material::GLASS,
             "chrome" => Material::CHROME,
+            "own" => return Ok(Self(None)),
             _ if text.contains('=') => Material::of(finish(text)?),
             _ => {
-                return Err("expected mirror, matte, mixed, glass or chrome, which --dc, --sc and --alpha change, or numbers, as in metallic=1,roughness=0.3,color=#ffcc66".to_owned());
+                return Err("expected own, or mirror, matte, mixed, glass or chrome, which --dc, --sc and --alpha change, or numbers, as in metallic=1,roughness=0.3,color=#ffcc66".to_owned());
             }
         };
         material.check().map_err(|error| error.to_string())?;
-        Ok(Self(material))
+        Ok(Self(Some(material)))
     }
 }
 

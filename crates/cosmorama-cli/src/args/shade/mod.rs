@@ -18,8 +18,8 @@ use super::with_examples;
 
 pub(crate) use material::MaterialName;
 pub(crate) use names::{
-    BackgroundName, ByColour, CameraName, ChromeTable, HighlightName, ObjectName, PartName, Point, RefractName,
-    WallsName,
+    BackgroundName, ByColour, CameraName, ChromeTable, HighlightName, ObjectName, OcclusionName, PartName, Point,
+    RefractName, WallsName,
 };
 
 /// Example commands in its help.
@@ -69,7 +69,7 @@ pub(crate) struct ShadeArgs {
     /// mirror (default), matte, mixed, glass, chrome or KEY=VALUE,…
     ///
     /// metallic=1,roughness=0.3,color=#ffcc66 is glTF's metallic-roughness; emissive, ior and specular are others of its
-    /// keys. Roughness is the root of α. Colours are names, #rrggbb, or linear light as in 1:0.8:0.3.
+    /// keys. Roughness is the root of α. Colours are names, #rrggbb, or linear light as in 1:0.8:0.3. own is what a model's file says.
     #[arg(long, value_name = "NAME", default_value = "mirror", value_parser = listed::material(), hide_possible_values = true, hide_default_value = true, help_heading = "Things")]
     pub(crate) material: MaterialName,
     /// A picture on what is matt or metallic-roughness: its colour
@@ -126,6 +126,20 @@ pub(crate) struct ShadeArgs {
     /// The spheres of a row are sphere1, sphere2 and so on.
     #[arg(long, value_name = "NAME=WORLD", hide_short_help = true, help_heading = "World")]
     pub(crate) part: Vec<PartName>,
+    /// none (default), or ambient: things keep light from what is matt
+    ///
+    /// Rays tell what part of the light that falls on a place is hidden by things. Slow: 64 rays for each.
+    #[arg(
+        long,
+        value_enum,
+        value_name = "HOW",
+        default_value = "none",
+        hide_possible_values = true,
+        hide_default_value = true,
+        hide_short_help = true,
+        help_heading = "Things"
+    )]
+    pub(crate) occlusion: OcclusionName,
     /// Walls that stand for a near world: box:X,Y,Z or sphere:RADIUS
     ///
     /// A reflected ray is met with them, and the world is looked up in the direction of that place from --centre.
@@ -168,7 +182,9 @@ pub(crate) struct ShadeArgs {
     /// Which frame of several
     #[arg(long, value_name = "N", value_parser = frame_list, allow_hyphen_values = true, hide_short_help = true, help_heading = "World")]
     pub(crate) frames: Option<FrameList>,
-    /// perspective:fov=40 (default), orthographic:height=H or any SPEC
+    /// perspective:fov=40 (default), orthographic:height=H, gltf[:NAME] or any SPEC
+    ///
+    /// gltf is the first camera of a model's file, gltf:NAME one by its name.
     #[arg(long, value_name = "CAMERA", value_parser = listed::camera(), hide_possible_values = true, help_heading = "Picture")]
     pub(crate) camera: Option<CameraName>,
     /// Place of the eye [default: before the things, on +Z]

@@ -50,12 +50,14 @@ fn is_model(text: &str) -> bool {
     MODEL_EXTENSIONS.iter().any(|extension| text.ends_with(extension))
 }
 
-/// Name of a camera: parallel rays, or a projection of the library.
+/// Name of a camera: parallel rays, a projection of the library, or one of a model's.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum CameraName {
     /// Parallel rays; the picture's height in units of the scene, if given.
     Orthographic(Option<f64>),
     Lens(Box<Spec>),
+    /// A camera of a model's file, by its name; the first without one.
+    Model(Option<String>),
 }
 
 impl FromStr for CameraName {
@@ -64,6 +66,8 @@ impl FromStr for CameraName {
     fn from_str(text: &str) -> Result<Self, String> {
         let height = |number: &str| number.parse().ok().filter(|height: &f64| height.is_finite() && *height > 0.0);
         match text.split_once(':') {
+            None if text == "gltf" => Ok(Self::Model(None)),
+            Some(("gltf", name)) if !name.is_empty() => Ok(Self::Model(Some(name.to_owned()))),
             None if text == "orthographic" => Ok(Self::Orthographic(None)),
             Some(("orthographic", keys)) => {
                 let height = keys.strip_prefix("height=").and_then(height);
@@ -205,4 +209,13 @@ pub(crate) enum RefractName {
     Traced,
     /// Bent once, where it enters
     Bent,
+}
+
+/// What hides light from things.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum OcclusionName {
+    /// Nothing
+    None,
+    /// Things, from what is matt
+    Ambient,
 }

@@ -3,7 +3,7 @@ use cosmorama::camera::View;
 use cosmorama_convert::{
     ConvertError, ExplanationSettings, GeometrySettings, MemoryBudget, Place as SheetPlace, Setting,
 };
-use cosmorama_scene::{Camera, Located, Orthographic, Place, Scene, SceneFile};
+use cosmorama_scene::{Camera, Located, ModelCamera, Orthographic, Place, Scene, SceneFile};
 use cosmorama_spec::{Size, Spec};
 
 use super::things::Things;
@@ -74,8 +74,32 @@ pub(super) fn shots(args: &ShadeArgs, things: &Things) -> Result<Vec<Shot>> {
             let camera = Orthographic::new(asked.placed(place), height.unwrap_or(usual), pixels).map_err(wrong)?;
             Ok(vec![Shot { camera: Camera::Orthographic(camera), place: None }])
         }
+        CameraName::Model(name) => {
+            let camera = of_model(name.as_deref(), &things.cameras)?;
+            if asked.eye.is_some() || asked.target.is_some() {
+                return Err(usage("--eye, --target: a model's camera has a place; leave them out, or take another --camera"));
+            }
+            let pixels = [size.width, size.height.unwrap_or_else(|| camera.rows(size.width))];
+            MemoryBudget::new(args.limits.memory).check_picture(pixels.into())?;
+            Ok(vec![Shot { camera: camera.camera(pixels).map_err(wrong)?, place: None }])
+        }
         CameraName::Lens(spec) => lens(args, (**spec).clone(), &asked, scene),
     }
+}
+
+/// Returns the camera of a name, or the first of all.
+fn of_model<'a>(name: Option<&str>, cameras: &'a [ModelCamera]) -> Result<&'a ModelCamera> {
+    let is_it = |camera: &&ModelCamera| name.is_none_or(|name| camera.name == name);
+    if let Some(camera) = cameras.iter().find(is_it) {
+        return Ok(camera);
+    }
+    let names: Vec<&str> = cameras.iter().map(|camera| camera.name.as_str()).collect();
+    Err(usage(match name {
+        Some(name) if !names.is_empty() => {
+            format!("--camera gltf:{name}: no model has such a camera; there are {}", names.join(", "))
+        }
+        _ => "--camera gltf: no model here has a camera; take another, as in --camera perspective:fov=40".to_owned(),
+    }))
 }
 
 fn lens(args: &ShadeArgs, spec: Spec, asked: &Asked, scene: &Scene) -> Result<Vec<Shot>> {

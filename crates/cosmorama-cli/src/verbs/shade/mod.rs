@@ -27,7 +27,7 @@ use self::things::Things;
 use self::turntable::frames;
 use self::worlds::{files, read, worlds};
 use super::prepare_output;
-use crate::args::{BackgroundName, ShadeArgs};
+use crate::args::{BackgroundName, OcclusionName, ShadeArgs};
 use crate::console::Console;
 use crate::failure::usage;
 
@@ -55,7 +55,8 @@ pub(super) fn run(args: ShadeArgs, console: &mut Console) -> Result<ExitCode> {
         FilterSettings { kind: args.reflect.0, kernel: args.kernel.kernel, anti_ringing: args.kernel.anti_ringing };
     let surroundings = |number: usize| {
         let made = Surroundings::new(skies[number], &maps[number], filter).map_err(wrong)?;
-        Ok(made.with_chrome(things.chrome.clone()).with_proxy(worlds[number].proxy))
+        let is_hidden = args.occlusion == OcclusionName::Ambient;
+        Ok(made.with_chrome(things.chrome.clone()).with_proxy(worlds[number].proxy).with_occlusion(is_hidden))
     };
     let mut surroundings: Vec<Surroundings> =
         pool.install(|| (0..worlds.len()).map(surroundings).collect::<Result<_>>())?;

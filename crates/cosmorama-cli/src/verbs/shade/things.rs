@@ -1,4 +1,5 @@
 use std::collections::HashSet;
+use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -6,10 +7,10 @@ use anyhow::{Error, Result, anyhow};
 use cosmorama::filter::{Texture, Wrap};
 use cosmorama::raster::{Image, Rgba, Transfer};
 use cosmorama_convert::{MemoryBudget, real_path};
-use cosmorama_io::{Limits, read};
+use cosmorama_io::{Limits, read, read_from};
 use cosmorama_scene::{
-    Chrome, Finish, Glass, Material, MaterialError, Model, ModelSettings, NamedWorld, Object, Paint, PictureKind,
-    Refraction, Scene, SceneFile, SceneReader,
+    Chrome, Finish, Glass, Material, MaterialError, Model, ModelCamera, ModelSettings, NamedWorld, Object, Paint,
+    PictureKind, PictureReader, PictureSource, Refraction, Scene, SceneFile, SceneReader,
 };
 
 use super::model::model;
@@ -22,6 +23,8 @@ pub(super) struct Things {
     pub(super) chrome: Chrome,
     /// The scene file, if they come from one.
     pub(super) file: Option<SceneFile>,
+    /// Cameras that models' files have.
+    pub(super) cameras: Vec<ModelCamera>,
     /// Other worlds that the scene file names.
     pub(super) worlds: Vec<NamedWorld>,
     /// Files that were read, by their real paths.
@@ -33,14 +36,16 @@ impl Things {
     pub(super) fn read(args: &ShadeArgs) -> Result<Self> {
         let budget = MemoryBudget::new(args.limits.memory);
         let most = budget.count_of(Model::TRIANGLE_BYTES);
-        let mut reader = Reader { limits: Limits::memory(budget.bytes), most, files: HashSet::new() };
+        let limits = Limits::memory(budget.bytes);
+        let mut reader = Reader { limits, most, files: HashSet::new(), cameras: Vec::new() };
         let file = args.scene.as_deref().map(|path| scene_file(path, &mut reader)).transpose()?;
         let scene = match &file {
             Some(file) => file.scene(&mut reader)?,
             None => scene(args, &mut reader)?,
         };
         let worlds = file.as_ref().map_or_else(|| Ok(Vec::new()), SceneFile::worlds)?;
-        Ok(Self { scene, chrome: chrome(args, file.is_some())?, file, worlds, files: reader.files })
+        let Reader { files, cameras, .. } = reader;
+        Ok(Self { scene, chrome: chrome(args, file.is_some())?, file, cameras, worlds, files })
     }
 }
 
@@ -50,12 +55,19 @@ struct Reader {
     /// Most triangles of a model.
     most: usize,
     files: HashSet<PathBuf>,
+    cameras: Vec<ModelCamera>,
 }
 
-impl SceneReader for Reader {
-    fn picture(&mut self, path: &Path, kind: PictureKind) -> Result<Image<Rgba>, String> {
-        self.files.insert(real_path(path));
-        let file = read(path, &self.limits).map_err(|error| error.to_string())?;
+impl PictureReader for Reader {
+    fn picture(&mut self, source: PictureSource, kind: PictureKind) -> Result<Image<Rgba>, String> {
+        let file = match source {
+            PictureSource::File(path) => {
+                self.files.insert(real_path(path));
+                read(path, &self.limits)
+            }
+            PictureSource::Bytes(bytes) => read_from(Cursor::new(bytes), "a picture inside the file", &self.limits),
+        };
+        let file = file.map_err(|error| error.to_string())?;
         Ok(match kind {
             PictureKind::Colour => file.to_light(),
             PictureKind::Numbers => {
@@ -69,10 +81,21 @@ impl SceneReader for Reader {
             }
         })
     }
+}
 
+impl SceneReader for Reader {
     fn model(&mut self, path: &Path, settings: ModelSettings) -> Result<Object, String> {
+        let settings = ModelSettings { most: self.most, ..settings };
+        self.read_model(path, &settings).map_err(|error| error.to_string())
+    }
+}
+
+impl Reader {
+    fn read_model(&mut self, path: &Path, settings: &ModelSettings) -> Result<Object> {
         self.files.insert(real_path(path));
-        model(path, ModelSettings { most: self.most, ..settings }).map_err(|error| error.to_string())
+        let model = model(path, settings, self)?;
+        self.cameras.extend(model.cameras);
+        Ok(model.object)
     }
 }
 
@@ -87,7 +110,7 @@ fn scene_file(path: &Path, reader: &mut Reader) -> Result<SceneFile> {
 
 /// Returns the things that options ask for.
 fn scene(args: &ShadeArgs, reader: &mut Reader) -> Result<Scene> {
-    let asked = &args.material.0;
+    let Some(asked) = &args.material.0 else { return own(args, reader) };
     if args.alpha.is_some() && asked.finish.is_some() {
         return Err(usage("--alpha: metallic-roughness has its own, as in --material roughness=0.5 for an α of 0.25"));
     }
@@ -121,10 +144,22 @@ fn scene(args: &ShadeArgs, reader: &mut Reader) -> Result<Scene> {
         ObjectName::Model(path) => {
             let settings =
                 ModelSettings { crease: args.crease, material: Some(material), most: reader.most, placing: None };
-            reader.files.insert(real_path(path));
-            Ok(Scene { objects: vec![model(path, settings)?] })
+            Ok(Scene { objects: vec![reader.read_model(path, &settings)?] })
         }
     }
+}
+
+/// Returns a model with the materials of its file.
+fn own(args: &ShadeArgs, reader: &mut Reader) -> Result<Scene> {
+    let ObjectName::Model(path) = &args.object else {
+        return Err(usage("--material own is for a model's file; name one, as in --object teapot.glb"));
+    };
+    let changes = [args.dc, args.sc, args.alpha].iter().any(Option::is_some) || args.texture.is_some();
+    if changes || glass(args, None)?.is_some() {
+        return Err(usage("--material own is what the file says: leave out --dc, --sc, --alpha and --texture"));
+    }
+    let settings = ModelSettings { crease: args.crease, material: None, most: reader.most, placing: None };
+    Ok(Scene { objects: vec![reader.read_model(path, &settings)?] })
 }
 
 /// Returns a material with a picture for its colour.
@@ -134,7 +169,7 @@ fn textured(material: &Material, path: &Path, reader: &mut Reader) -> Result<Mat
             "--texture colours what is matt or metallic-roughness; add --material matte, or as in --material roughness=0.5",
         ));
     };
-    let picture = reader.picture(path, PictureKind::Colour).map_err(Error::msg)?;
+    let picture = reader.picture(PictureSource::File(path), PictureKind::Colour).map_err(Error::msg)?;
     let map = Some(Arc::new(Texture::new(picture, [Wrap::Repeat, Wrap::Clamp])));
     let base = Paint { map, ..finish.base.clone() };
     Ok(Material { finish: Some(Arc::new(Finish { base, ..finish })), ..material.clone() })
@@ -154,7 +189,7 @@ fn option_of(error: &MaterialError) -> &'static str {
 
 /// Returns the table of chrome that was asked for; its options are for nothing else.
 fn chrome(args: &ShadeArgs, is_file: bool) -> Result<Chrome> {
-    if !args.material.0.chrome && !is_file {
+    if !args.material.is_chrome() && !is_file {
         let message = "--chrome and --highlight are for chrome; add --material chrome";
         let is_given = args.chrome.is_some() || !args.highlight.is_empty();
         return if is_given { Err(usage(message)) } else { Ok(Chrome::earth_and_sky()) };

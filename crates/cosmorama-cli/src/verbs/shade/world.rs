@@ -97,7 +97,7 @@ fn without(args: &ShadeArgs) -> Result<WorldInput> {
     if args.scene.is_some() {
         return Err(usage("things of a scene file need a world; name one"));
     }
-    if !args.material.0.chrome || args.dc.unwrap_or(0.0) > 0.0 {
+    if !args.material.is_chrome() || args.dc.unwrap_or(0.0) > 0.0 {
         return Err(usage("without a world there is only chrome: name a world, or give --material chrome and no --dc"));
     }
     if args.background == BackgroundName::World {

@@ -241,3 +241,61 @@ fn scene_files_turntables_and_parts_are_pictures() {
     assert_says(&wrong(&["wrong.toml"]), &["wrong.toml, line 8", "`shap`", "did you mean 'shape'?"]);
     assert_says(&wrong(&["lost.toml"]), &["lost.toml"]);
 }
+
+/// A square under a camera of its own, in glTF; its material glows green.
+const SQUARE: &str = r#"{
+  "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
+  "nodes": [{"mesh": 0}, {"name": "above", "camera": 0, "translation": [0.5, 0.5, 3]}],
+  "cameras": [{"type": "orthographic", "orthographic": {"xmag": 1, "ymag": 0.5, "znear": 0.1, "zfar": 9}}],
+  "materials": [{"emissiveFactor": [0, 1, 0], "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1], "metallicFactor": 1}}],
+  "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "mode": 5, "material": 0}]}],
+  "accessors": [
+    {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+    {"bufferView": 1, "componentType": 5121, "count": 4, "type": "SCALAR"}
+  ],
+  "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 4}],
+  "buffers": [{"uri": "square.bin", "byteLength": 52}]
+}"#;
+
+#[test]
+fn models_have_materials_and_cameras_of_their_own() {
+    let bench = Bench::new();
+    bench.save("white.exr", &crate::bench::floats(64, 32, |_, _| [1.0; 3]));
+    let corners = [[0.0f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]];
+    let numbers = corners.iter().flatten().flat_map(|number| number.to_le_bytes());
+    std::fs::write(bench.path("square.bin"), numbers.chain([0, 1, 2, 3]).collect::<Vec<u8>>()).unwrap();
+    std::fs::write(bench.path("square.gltf"), SQUARE).unwrap();
+    let shade = |args: &[&str]| [&["shade", "white.exr", "out.exr", "--object", "square.gltf"], args].concat();
+    for camera in ["gltf", "gltf:above"] {
+        bench.succeed(&shade(&["--material", "own", "--camera", camera, "--size", "64", "--background", "black", "-y"]));
+        let image = light(&bench, "out.exr");
+        // Twice as wide as high, as the file says; the square fills its height.
+        assert_eq!((image.width(), image.height()), (64, 32));
+        let (shown, beside) = (image.get(32, 2).0, image.get(8, 16).0);
+        assert!((shown[1] - 1.0).abs() < 1e-3 && shown[0] < 1e-3 && beside[1] == 0.0, "{shown:?} {beside:?}");
+    }
+    let fail = |args: &[&str]| bench.fail(2, &shade(args));
+    assert_says(&fail(&["--camera", "gltf:below"]), &["--camera gltf:below", "there are above"]);
+    assert_says(&fail(&["--camera", "gltf", "--eye", "0,0,1"]), &["--eye", "leave"]);
+    assert_says(&fail(&["--material", "own", "--dc", "1"]), &["--material own", "--dc"]);
+    let fail = |args: &[&str]| bench.fail(2, &[&["shade", "white.exr", "ball.exr"], args].concat());
+    assert_says(&fail(&["--material", "own"]), &["--material own", "--object teapot.glb"]);
+    assert_says(&fail(&["--camera", "gltf"]), &["--camera gltf", "no model here has a camera"]);
+}
+
+#[test]
+fn things_hide_light_where_that_is_asked_for() {
+    let bench = Bench::new();
+    bench.save("white.exr", &crate::bench::floats(64, 32, |_, _| [1.0; 3]));
+    let scene = "[camera]\nprojection = 'perspective:fov=40'\nsize = '64x64'\neye = [0, 3, 6]\ntarget = [0, 0, 0]\n\
+                 [[object]]\nfile = 'floor.obj'\nmaterial = 'matte'\n\
+                 [[object]]\nshape = 'sphere'\nmaterial = 'mirror'\ntranslate = [0, 0.6, 0]\nscale = 0.5\n";
+    std::fs::write(bench.path("scene.toml"), scene).unwrap();
+    std::fs::write(bench.path("floor.obj"), "v -4 0 4\nv 4 0 4\nv 4 0 -4\nv -4 0 -4\nf 1 2 3 4\n").unwrap();
+    for (name, how) in [("open.exr", "none"), ("hidden.exr", "ambient")] {
+        bench.succeed(&["shade", "white.exr", name, "--scene", "scene.toml", "--background", "black", "--occlusion", how]);
+    }
+    let [open, hidden] = ["open.exr", "hidden.exr"].map(|name| light(&bench, name));
+    let at = |image: &Image<Rgba>, j: usize| image.get(32, j).0[0];
+    assert!((at(&open, 38) - 1.0).abs() < 1e-3 && at(&hidden, 38) < 0.9, "{} {}", at(&open, 38), at(&hidden, 38));
+}

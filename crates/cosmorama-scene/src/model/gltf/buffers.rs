@@ -1,6 +1,6 @@
 use std::fs::File;
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use data_url::DataUrl;
 use gltf::Document;
@@ -60,16 +60,35 @@ impl Buffers {
     }
 }
 
+/// Meaning of a URI.
+pub(super) enum Found {
+    /// Its own bytes.
+    Bytes(Vec<u8>),
+    /// A file beside the model's.
+    File(PathBuf),
+}
+
+impl Found {
+    /// Finds what a URI stands for. Nothing is fetched.
+    pub(super) fn of(uri: &str, folder: &Path) -> Result<Self, String> {
+        if uri.starts_with("data:") {
+            let wrong = || "is a data URI that cannot be decoded".to_owned();
+            let (data, _) = DataUrl::process(uri).map_err(|_| wrong())?.decode_to_vec().map_err(|_| wrong())?;
+            return Ok(Self::Bytes(data));
+        }
+        if uri.contains("://") {
+            return Err(format!("is at '{uri}'; expected a file beside the model's, since nothing is fetched"));
+        }
+        Ok(Self::File(folder.join(&*percent_decode_str(uri).decode_utf8_lossy())))
+    }
+}
+
 /// Returns the bytes that a URI stands for: its own, or the first of a file.
 fn bytes_of(uri: &str, folder: &Path, most: usize) -> Result<Vec<u8>, String> {
-    if uri.starts_with("data:") {
-        let wrong = || "is a data URI that cannot be decoded".to_owned();
-        return DataUrl::process(uri).map_err(|_| wrong())?.decode_to_vec().map(|(data, _)| data).map_err(|_| wrong());
-    }
-    if uri.contains("://") {
-        return Err(format!("is at '{uri}'; expected a file beside the model's, since nothing is fetched"));
-    }
-    let path = folder.join(&*percent_decode_str(uri).decode_utf8_lossy());
+    let path = match Found::of(uri, folder)? {
+        Found::Bytes(bytes) => return Ok(bytes),
+        Found::File(path) => path,
+    };
     let mut bytes = Vec::new();
     let read = File::open(&path).and_then(|file| file.take(most as u64).read_to_end(&mut bytes));
     read.map(|_| bytes).map_err(|error| format!("cannot be read: {}: {error}", path.display()))

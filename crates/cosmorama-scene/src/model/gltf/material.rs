@@ -1,24 +1,111 @@
-use crate::material::{Finish, Material, Paint};
+use std::collections::HashMap;
+use std::path::Path;
+use std::sync::Arc;
 
-/// Returns a material by its numbers, without its pictures.
-pub(super) fn material(material: &gltf::Material) -> Material {
-    let pbr = material.pbr_metallic_roughness();
-    let [red, green, blue, _] = pbr.base_color_factor().map(f64::from);
-    Material::of(Finish {
-        base: Paint::plain([red, green, blue]),
-        metallic: pbr.metallic_factor().into(),
-        roughness: pbr.roughness_factor().into(),
-        emissive: Paint::plain(material.emissive_factor().map(f64::from)),
-        ..Finish::default()
+use cosmorama::filter::{Texture, Wrap};
+use cosmorama::raster::{Image, Rgba};
+use gltf::image::Source;
+use gltf::texture::WrappingMode;
+
+use super::buffers::{Buffers, Found};
+use crate::material::{Finish, Material, NormalMap, Paint, PictureKind, PictureReader, PictureSource};
+use crate::model::ModelFault;
+
+/// Materials of a file, read once each with their pictures.
+pub(super) struct Materials<'a> {
+    buffers: &'a Buffers,
+    folder: &'a Path,
+    pictures: &'a mut dyn PictureReader,
+    /// By number; the one without is that of parts that name none.
+    read: HashMap<Option<usize>, Material>,
+    textures: HashMap<(usize, PictureKind, [Wrap; 2]), Arc<Texture>>,
+}
+
+impl<'a> Materials<'a> {
+    pub(super) fn new(buffers: &'a Buffers, folder: &'a Path, pictures: &'a mut dyn PictureReader) -> Self {
+        Self { buffers, folder, pictures, read: HashMap::new(), textures: HashMap::new() }
+    }
+
+    /// Returns a material.
+    pub(super) fn get(&mut self, material: &gltf::Material) -> Result<Material, ModelFault> {
+        if let Some(read) = self.read.get(&material.index()) {
+            return Ok(read.clone());
+        }
+        let made = self.make(material)?;
+        self.read.insert(material.index(), made.clone());
+        Ok(made)
+    }
+
+    fn make(&mut self, material: &gltf::Material) -> Result<Material, ModelFault> {
+        let pbr = material.pbr_metallic_roughness();
+        let [red, green, blue, _] = pbr.base_color_factor().map(f64::from);
+        let mut map = |info: Option<gltf::texture::Info>, kind: PictureKind| {
+            info.map(|info| self.texture(&info.texture(), kind)).transpose()
+        };
+        let base = Paint { colour: [red, green, blue], map: map(pbr.base_color_texture(), PictureKind::Colour)? };
+        let metal_map = map(pbr.metallic_roughness_texture(), PictureKind::Numbers)?;
+        let emissive = Paint {
+            colour: material.emissive_factor().map(f64::from),
+            map: map(material.emissive_texture(), PictureKind::Colour)?,
+        };
+        let normal = |normal: gltf::material::NormalTexture| {
+            let picture = self.picture(&normal.texture(), PictureKind::Numbers)?;
+            Ok::<NormalMap, ModelFault>(NormalMap::new(&picture, wrap(&normal.texture()), normal.scale().into()))
+        };
+        let normal_map = material.normal_texture().map(normal).transpose()?;
+        Ok(Material::of(Finish {
+            base,
+            metallic: pbr.metallic_factor().into(),
+            roughness: pbr.roughness_factor().into(),
+            metal_map,
+            emissive,
+            normal_map,
+            ..Finish::default()
+        }))
+    }
+
+    fn texture(&mut self, texture: &gltf::Texture, kind: PictureKind) -> Result<Arc<Texture>, ModelFault> {
+        let (image, wrap) = (texture.source().index(), wrap(texture));
+        if let Some(read) = self.textures.get(&(image, kind, wrap)) {
+            return Ok(Arc::clone(read));
+        }
+        let made = Arc::new(Texture::new(self.picture(texture, kind)?, wrap));
+        self.textures.insert((image, kind, wrap), Arc::clone(&made));
+        Ok(made)
+    }
+
+    /// Reads a picture: a part of a buffer, a text in the file, or a file beside it.
+    fn picture(&mut self, texture: &gltf::Texture, kind: PictureKind) -> Result<Image<Rgba>, ModelFault> {
+        let image = texture.source();
+        let fault = |why: String| ModelFault::Piece { piece: format!("image {}", image.index()), why };
+        let read = match image.source() {
+            Source::View { view, .. } => {
+                let bytes = self.buffers.view(&view).map_err(fault)?;
+                self.pictures.picture(PictureSource::Bytes(bytes), kind)
+            }
+            Source::Uri { uri, .. } => match Found::of(uri, self.folder).map_err(fault)? {
+                Found::Bytes(bytes) => self.pictures.picture(PictureSource::Bytes(&bytes), kind),
+                Found::File(path) => self.pictures.picture(PictureSource::File(&path), kind),
+            },
+        };
+        read.map_err(|error| fault(format!("cannot be read: {error}")))
+    }
+}
+
+fn wrap(texture: &gltf::Texture) -> [Wrap; 2] {
+    let sampler = texture.sampler();
+    [sampler.wrap_s(), sampler.wrap_t()].map(|mode| match mode {
+        WrappingMode::ClampToEdge => Wrap::Clamp,
+        WrappingMode::MirroredRepeat => Wrap::Mirror,
+        WrappingMode::Repeat => Wrap::Repeat,
     })
 }
 
-/// Returns whether a material has pictures.
-pub(super) fn has_pictures(material: &gltf::Material) -> bool {
+/// Lists the sets of texture coordinates that a material's pictures go by.
+pub(super) fn sets(material: &gltf::Material) -> Vec<u32> {
     let pbr = material.pbr_metallic_roughness();
-    pbr.base_color_texture().is_some()
-        || pbr.metallic_roughness_texture().is_some()
-        || material.normal_texture().is_some()
-        || material.emissive_texture().is_some()
-        || material.occlusion_texture().is_some()
+    let maps = [pbr.base_color_texture(), pbr.metallic_roughness_texture(), material.emissive_texture()];
+    let set = |info: gltf::texture::Info| info.tex_coord();
+    let normal = material.normal_texture().map(|normal| normal.tex_coord());
+    maps.into_iter().flatten().map(set).chain(normal).collect()
 }

@@ -14,14 +14,21 @@ use gltf::mesh::Mode;
 use gltf::{Document, Gltf, Node, Semantic};
 
 use self::buffers::Buffers;
-use super::{Contents, ModelFault};
+use self::material::{Materials, sets};
+use super::{Contents, ModelFault, ModelSettings};
+use crate::material::PictureReader;
 use crate::scene::Part;
 
 /// Extensions that a file may require.
 const SUPPORTED: [&str; 1] = ["KHR_mesh_quantization"];
 
-/// Reads the triangles and cameras of a file's scene.
-pub(super) fn read(path: &Path, most: usize) -> Result<Contents, ModelFault> {
+/// Reads the triangles and cameras of a file's scene, and its materials unless others are given.
+pub(super) fn read(
+    path: &Path,
+    settings: &ModelSettings,
+    pictures: &mut dyn PictureReader,
+) -> Result<Contents, ModelFault> {
+    let most = settings.most;
     let bytes = std::fs::read(path)?;
     let Gltf { document, blob } =
         Gltf::from_slice_without_validation(&bytes).map_err(|error| ModelFault::Format(error.to_string()))?;
@@ -39,7 +46,9 @@ pub(super) fn read(path: &Path, most: usize) -> Result<Contents, ModelFault> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let buffers = Buffers::read(&document, blob, folder, most)?;
     // Normals that the file lacks are flat: section 3.7.2.1 of the format.
-    let mut contents = Contents { notes: notes(&document), ..Contents::new(Angle::from_degrees(0.0)) };
+    let notes = notes(&document, settings.material.is_none());
+    let mut contents = Contents { notes, ..Contents::new(Angle::from_degrees(0.0)) };
+    let mut materials = Materials::new(&buffers, folder, pictures);
     for (node, place) in &nodes {
         contents.cameras.extend(camera::camera(node, place));
         let Some(mesh) = node.mesh() else { continue };
@@ -52,7 +61,10 @@ pub(super) fn read(path: &Path, most: usize) -> Result<Contents, ModelFault> {
                 .or(node.name())
                 .or(mesh.name())
                 .map_or_else(|| format!("node {}", node.index()), str::to_owned);
-            let material = material::material(&primitive.material());
+            let material = match &settings.material {
+                Some(given) => given.clone(),
+                None => materials.get(&primitive.material())?,
+            };
             contents.parts.push(Part { name, material, world: 0 });
         }
     }
@@ -65,7 +77,7 @@ fn check(document: &Document) -> Result<(), ModelFault> {
     use gltf::json::validation::Checked::Valid;
     use gltf::json::validation::{Error, Validate};
     let json = document.as_json();
-    // Two rules that the crate's own checks take for granted, or leave out.
+    // Rules that the crate's own checks take for granted, or leave out.
     let attributes = json.meshes.iter().flat_map(|mesh| &mesh.primitives).flat_map(|part| part.attributes.values());
     if attributes.clone().any(|index| index.value() >= json.accessors.len()) {
         return Err(ModelFault::Format("a primitive names an accessor that is not there".to_owned()));
@@ -77,6 +89,13 @@ fn check(document: &Document) -> Result<(), ModelFault> {
     }) {
         let why = "does not have the numbers of its type".to_owned();
         return Err(ModelFault::Piece { piece: format!("camera {index}"), why });
+    }
+    let is_bare = |image: &gltf::json::Image| {
+        image.uri.is_none() && image.buffer_view.is_none() || image.buffer_view.is_some() && image.mime_type.is_none()
+    };
+    if let Some(index) = json.images.iter().position(is_bare) {
+        let why = "has no picture; expected a uri, or a bufferView and its mimeType".to_owned();
+        return Err(ModelFault::Piece { piece: format!("image {index}"), why });
     }
     let mut faults = Vec::new();
     json.validate(json, gltf::json::Path::new, &mut |path, error| {
@@ -124,19 +143,22 @@ fn triangles(node: &Node) -> usize {
     node.mesh().map_or(0, |mesh| mesh.primitives().map(count).fold(0, usize::saturating_add))
 }
 
-/// Lists what a file has that is not shown.
-fn notes(document: &Document) -> Vec<String> {
+/// Lists what a file has that is not shown. Its materials may not be wanted.
+fn notes(document: &Document, has_materials: bool) -> Vec<String> {
     let primitives = || document.meshes().flat_map(|mesh| mesh.primitives());
     let is_line = |primitive: gltf::Primitive| {
         !matches!(primitive.mode(), Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)
     };
     let is_clear = |primitive: gltf::Primitive| primitive.material().alpha_mode() != gltf::material::AlphaMode::Opaque;
+    let is_occluded = |material: gltf::Material| material.occlusion_texture().is_some();
+    let is_of_two = |material: gltf::Material| sets(&material).windows(2).any(|pair| pair[0] != pair[1]);
     let all = [
         (document.skins().len() > 0, "skins are not applied: things are as they rest"),
         (document.animations().len() > 0, "animations are not applied"),
         (primitives().any(is_line), "points and lines are left out"),
-        (document.materials().any(|material| material::has_pictures(&material)), "pictures of materials are not read"),
-        (primitives().any(is_clear), "transparency of materials is not shown"),
+        (has_materials && document.materials().any(is_occluded), "pictures of ambient occlusion are not read"),
+        (has_materials && document.materials().any(is_of_two), "pictures of one material go by one set of coordinates"),
+        (has_materials && primitives().any(is_clear), "transparency of materials is not shown"),
         (primitives().any(|primitive| primitive.morph_targets().len() > 0), "morph targets are not applied"),
         (primitives().any(|part| part.get(&Semantic::Colors(0)).is_some()), "colours of vertices are not applied"),
     ];

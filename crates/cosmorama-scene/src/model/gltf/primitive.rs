@@ -4,6 +4,7 @@ use gltf::{Primitive, Semantic};
 
 use super::accessor::{indices, numbers};
 use super::buffers::Buffers;
+use super::material::sets;
 use crate::model::ModelFault;
 use crate::shape::Face;
 
@@ -25,8 +26,9 @@ pub(super) fn faces(
     let tangents = tangents.map(|tangents| {
         mapped(tangents, |[x, y, z, w]: [f64; 4]| (turn * DVec3::new(x, y, z)).normalize_or_zero().extend(w * side))
     });
-    // The first set: pictures of a scene file go by it, and those of the file are not read.
-    let uvs = attribute(primitive, &Semantic::TexCoords(0), buffers)?;
+    // The set of the material's pictures; those of a scene file go by the first.
+    let set = sets(&primitive.material()).first().copied().unwrap_or(0);
+    let uvs = attribute(primitive, &Semantic::TexCoords(set), buffers)?;
     let uvs = uvs.map(|uvs| mapped(uvs, DVec2::from_array));
     for (name, count) in [
         ("normals", normals.as_ref().map(Vec::len)),

@@ -1,0 +1,51 @@
+//! The part of the light on a place that things do not hide.
+
+use std::f64::consts::TAU;
+
+use glam::DVec3;
+
+use crate::ray::{Ray, RayChange};
+use crate::scene::Scene;
+use crate::shape::Wall;
+
+/// Rays for each place: as many rings, weighed by the cosine, as rays in each.
+const SIDE: usize = 8;
+
+/// Steps of the fractional parts of places, in space, by which the rays of neighbours differ: roots of the polynomial
+/// x⁴ = x + 1, and its powers, which fill cubes evenly (M. Roberts, *The unreasonable effectiveness of quasirandom
+/// sequences*, 2018).
+const STEPS: [DVec3; 2] = [
+    DVec3::new(0.819_172_513_396_164_4, 0.671_043_606_703_789_2, 0.549_700_477_901_970_3),
+    DVec3::new(0.671_043_606_703_789_2, 0.549_700_477_901_970_3, 0.819_172_513_396_164_4),
+];
+
+/// Finest difference of places, as a part of a thing's radius, that has other rays.
+const GRAIN: f64 = 1e-3;
+
+/// Returns the part of the light from all sides, weighed by the cosine, that reaches a place: 1 if no thing hides any.
+///
+/// The rays of a place are those of its coordinates, so that pictures do not depend on threads.
+pub(super) fn openness(scene: &Scene, wall: &Wall) -> f64 {
+    let normal = wall.normal.facing(&wall.met).unit;
+    let (right, up) = normal.any_orthonormal_pair();
+    let size = scene.objects.iter().map(|object| object.shape.ball().radius).fold(f64::INFINITY, f64::min);
+    let grain = (wall.met.origin / (GRAIN * size)).floor();
+    let [around, outward] = STEPS.map(|step| grain.dot(step).rem_euclid(1.0));
+    let is_open = |k: usize| {
+        // Equal parts of the disc under the hemisphere are equal parts of the light (Malley's method).
+        let radius = (((k / SIDE) as f64 + outward) / SIDE as f64).sqrt();
+        let turn = TAU * (((k % SIDE) as f64 + around) / SIDE as f64);
+        let (y, x) = turn.sin_cos();
+        let direction = (right * x + up * y) * radius + normal * (1.0 - radius * radius).max(0.0).sqrt();
+        !is_hidden(scene, wall.met.origin, direction)
+    };
+    let open = (0..SIDE * SIDE).filter(|k| is_open(*k)).count();
+    open as f64 / (SIDE * SIDE) as f64
+}
+
+/// Returns whether something is met on the way from a place.
+fn is_hidden(scene: &Scene, origin: DVec3, direction: DVec3) -> bool {
+    let still = RayChange { origin: DVec3::ZERO, direction: DVec3::ZERO };
+    let ray = Ray { origin, direction, dx: still, dy: still };
+    scene.objects.iter().any(|object| object.shape.is_met(&ray))
+}
