@@ -165,7 +165,9 @@ impl Map {
     fn parse(text: &str) -> Result<(Self, bool), String> {
         let mut map = Self { file: String::new(), wrap: [Wrap::Repeat; 2], factor: 1.0 };
         let (mut rest, mut is_whole) = (text.trim(), true);
-        while let Some((option, most)) = OPTIONS.iter().find(|(option, _)| keyed(rest).is_some_and(|(key, _)| key == *option)) {
+        while let Some((option, most)) =
+            OPTIONS.iter().find(|(option, _)| keyed(rest).is_some_and(|(key, _)| key == *option))
+        {
             rest = keyed(rest).map_or("", |(_, rest)| rest);
             let mut values = Vec::new();
             while values.len() < *most {

@@ -185,7 +185,9 @@ impl<'a> Reader<'a> {
 
     /// Returns the material of the lines; a mirror if they name none, or one that no library has.
     fn made(&mut self) -> Result<Material, String> {
-        let Some((name, all)) = self.material.as_ref().zip(self.materials.as_ref()) else { return Ok(Material::MIRROR) };
+        let Some((name, all)) = self.material.as_ref().zip(self.materials.as_ref()) else {
+            return Ok(Material::MIRROR);
+        };
         if let Some(made) = self.made.get(name) {
             return Ok(made.clone());
         }

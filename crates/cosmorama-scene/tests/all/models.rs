@@ -252,7 +252,8 @@ fn materials_of_gltf_are_read_by_their_numbers() {
 
 /// A picture of two texels, red on the left and green on the right, or grey in both, as PNG.
 fn two_texels(name: &str, is_grey: bool) -> File {
-    let colour = |i: usize| if is_grey { Rgba::opaque(0.5, 0.5, 0.5) } else { Rgba::opaque(1.0 - i as f32, i as f32, 0.0) };
+    let colour =
+        |i: usize| if is_grey { Rgba::opaque(0.5, 0.5, 0.5) } else { Rgba::opaque(1.0 - i as f32, i as f32, 0.0) };
     let picture = Image::from_fn(2, 1, |i, _| colour(i));
     let encoded = EncodedImage::encode(&picture, Channels::Rgb, Depth::Eight, &Transfer::Srgb);
     let path = std::env::temp_dir().join(format!("cosmorama-{}-{name}", std::process::id()));
@@ -316,7 +317,11 @@ fn pictures_of_gltf_materials_are_read() {
     assert_eq!(found.base.map.as_ref().map(|map| map.wrap()), Some([Wrap::Clamp, Wrap::Mirror]));
     assert_eq!(found.normal_map.as_ref().map(|map| map.scale), Some(0.5));
     assert!(model.notes.join("; ").contains("ambient occlusion"), "{:?}", model.notes);
-    for (to, says) in [("gone.png", "gone.png"), ("data:image/png;base64,AAAA", "image 0 cannot be read"), ("https://a.b/c.png", "image 0 is at")] {
+    for (to, says) in [
+        ("gone.png", "gone.png"),
+        ("data:image/png;base64,AAAA", "image 0 cannot be read"),
+        ("https://a.b/c.png", "image 0 is at"),
+    ] {
         let error = Gltf::new("lost", &text.replacen(&name_of(&picture), to, 1)).file.read().unwrap_err();
         assert!(error.contains(says) && error.contains("image 0"), "{to}: {error}");
     }
@@ -333,7 +338,8 @@ fn base64(bytes: &[u8]) -> String {
     const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let group = |chunk: &[u8]| {
         let bits = (0..3).fold(0, |bits, k| bits << 8 | u32::from(chunk.get(k).copied().unwrap_or(0)));
-        let letter = |k: usize| if k > chunk.len() { '=' } else { char::from(LETTERS[(bits >> (18 - 6 * k) & 63) as usize]) };
+        let letter =
+            |k: usize| if k > chunk.len() { '=' } else { char::from(LETTERS[(bits >> (18 - 6 * k) & 63) as usize]) };
         (0..4).map(letter).collect::<String>()
     };
     bytes.chunks(3).map(group).collect()

@@ -77,7 +77,9 @@ pub(super) fn shots(args: &ShadeArgs, things: &Things) -> Result<Vec<Shot>> {
         CameraName::Model(name) => {
             let camera = of_model(name.as_deref(), &things.cameras)?;
             if asked.eye.is_some() || asked.target.is_some() {
-                return Err(usage("--eye, --target: a model's camera has a place; leave them out, or take another --camera"));
+                return Err(usage(
+                    "--eye, --target: a model's camera has a place; leave them out, or take another --camera",
+                ));
             }
             let pixels = [size.width, size.height.unwrap_or_else(|| camera.rows(size.width))];
             MemoryBudget::new(args.limits.memory).check_picture(pixels.into())?;

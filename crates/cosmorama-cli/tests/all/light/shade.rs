@@ -267,7 +267,17 @@ fn models_have_materials_and_cameras_of_their_own() {
     std::fs::write(bench.path("square.gltf"), SQUARE).unwrap();
     let shade = |args: &[&str]| [&["shade", "white.exr", "out.exr", "--object", "square.gltf"], args].concat();
     for camera in ["gltf", "gltf:above"] {
-        bench.succeed(&shade(&["--material", "own", "--camera", camera, "--size", "64", "--background", "black", "-y"]));
+        bench.succeed(&shade(&[
+            "--material",
+            "own",
+            "--camera",
+            camera,
+            "--size",
+            "64",
+            "--background",
+            "black",
+            "-y",
+        ]));
         let image = light(&bench, "out.exr");
         // Twice as wide as high, as the file says; the square fills its height.
         assert_eq!((image.width(), image.height()), (64, 32));
@@ -293,7 +303,17 @@ fn things_hide_light_where_that_is_asked_for() {
     std::fs::write(bench.path("scene.toml"), scene).unwrap();
     std::fs::write(bench.path("floor.obj"), "v -4 0 4\nv 4 0 4\nv 4 0 -4\nv -4 0 -4\nf 1 2 3 4\n").unwrap();
     for (name, how) in [("open.exr", "none"), ("hidden.exr", "ambient")] {
-        bench.succeed(&["shade", "white.exr", name, "--scene", "scene.toml", "--background", "black", "--occlusion", how]);
+        bench.succeed(&[
+            "shade",
+            "white.exr",
+            name,
+            "--scene",
+            "scene.toml",
+            "--background",
+            "black",
+            "--occlusion",
+            how,
+        ]);
     }
     let [open, hidden] = ["open.exr", "hidden.exr"].map(|name| light(&bench, name));
     let at = |image: &Image<Rgba>, j: usize| image.get(32, j).0[0];
