@@ -1,18 +1,15 @@
-use std::ops::ControlFlow;
 use std::process::ExitCode;
 
 use anyhow::Result;
-use cosmorama_convert::{
-    Disk, Fault, MemoryBudget, Observer, SheetLayout, Stop, Verification, Verified, check_sheet, refuse_existing,
-};
+use cosmorama_convert::{Disk, Fault, MemoryBudget, SheetLayout, Verification, Verified, check_sheet, refuse_existing};
 use cosmorama_io::{Format, FrameList};
 use serde_json::{Value, json};
 
+use super::convert::Watch;
 use super::write_picture;
 use crate::args::VerifyArgs;
 use crate::console::Console;
 use crate::failure::usage;
-use crate::progress::Progress;
 
 /// Verifies a sequence, and reports its faults.
 pub(super) fn run(args: &VerifyArgs, console: &Console) -> Result<ExitCode> {
@@ -31,9 +28,9 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Result<ExitCode> {
         memory: MemoryBudget::new(args.memory),
         sheet: args.sheet.as_ref().map(|_| SheetLayout { every: args.every.get() }),
     };
-    let mut watch = Watch { args, progress: None };
+    let mut watch = Watch::new(console, args.progress);
     let verified = verification.run(&Disk, &mut watch)?;
-    watch.progress.iter().for_each(Progress::finish);
+    watch.finish();
     if let (Some(path), Some(format), Some(sheet)) = (&args.sheet, format, &verified.sheet) {
         write_picture((path, format), sheet, console)?;
     }
@@ -41,23 +38,6 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Result<ExitCode> {
         if args.json { serde_json::to_string_pretty(&json_of(args, &verified))? + "\n" } else { text_of(&verified) };
     console.print(&text)?;
     Ok(if verified.faults.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
-}
-
-/// Observer that shows how many frames have been read.
-struct Watch<'a> {
-    args: &'a VerifyArgs,
-    progress: Option<Progress>,
-}
-
-impl Observer for Watch<'_> {
-    fn begin(&mut self, frames: usize) {
-        self.progress = Some(Progress::new(self.args.progress, frames));
-    }
-
-    fn frame_done(&mut self, frame: Option<u64>) -> ControlFlow<Stop> {
-        self.progress.iter_mut().for_each(|progress| progress.frame_done(frame));
-        ControlFlow::Continue(())
-    }
 }
 
 /// Returns the list of faults, a line for each kind or damaged frame.

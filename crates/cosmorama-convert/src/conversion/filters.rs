@@ -200,7 +200,8 @@ impl FilterTrials {
         let places = busiest(&reference, |i, j| laboratory.is_whole(i, j), PLACES);
         let row = |label: &str, picture: &Image<Rgba>| Row::new(vec![label.to_owned()], picture, &places);
         let mut rows: Vec<Row> = truth.map(|truth| row("direct render", truth)).into_iter().collect();
-        rows.push(row("reference", &reference));
+        let is_shown = filters.iter().any(|filter| matches!(filter.0, FilterKind::Reference { .. }));
+        rows.extend((!is_shown).then(|| row("reference", &reference)));
         let mut trials = Vec::new();
         for (index, filter) in filters.iter().enumerate() {
             let to = (&reference, truth);

@@ -103,9 +103,11 @@ fn named(name: &str) -> Option<Kernel> {
 fn set_pair(kernel: &mut Kernel, name: &str, pair: &str) -> Result<(), String> {
     let (key, value) = pair.split_once('=').ok_or_else(|| format!("'{pair}' is no key=value"))?;
     if (name, key) == (GAUSSIAN, "table") {
-        kernel.entries = value.parse().ok().filter(|entries| (2..=LONGEST).contains(entries)).ok_or_else(|| {
-            format!("table={value}: expected a number of entries from 2 to {LONGEST}")
-        })?;
+        kernel.entries = value
+            .parse()
+            .ok()
+            .filter(|entries| (2..=LONGEST).contains(entries))
+            .ok_or_else(|| format!("table={value}: expected a number of entries from 2 to {LONGEST}"))?;
         return Ok(());
     }
     let value =

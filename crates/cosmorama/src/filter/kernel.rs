@@ -182,7 +182,14 @@ impl Kernel {
 
     /// Returns the kernel with one cross-section at every scale, whose unit is one output pixel and at least one texel.
     pub const fn uniform(cross_section: CrossSection) -> Self {
-        Self { fine: cross_section, coarse: cross_section, scale: 1.0, floor: 1.0, centred: false, entries: Self::ENTRIES }
+        Self {
+            fine: cross_section,
+            coarse: cross_section,
+            scale: 1.0,
+            floor: 1.0,
+            centred: false,
+            entries: Self::ENTRIES,
+        }
     }
 
     /// Returns the share of the coarse cross-section where a pixel is `s` texels wide.

@@ -2,12 +2,13 @@
 
 use std::ops::ControlFlow;
 
-use cosmorama::filter::{Classic, Filter, FilterKind, FilterSettings};
+use cosmorama::filter::{Classic, CrossSection, Filter, FilterKind, FilterSettings};
+use cosmorama::laboratory::figures::{circles, cone, kernel, paraboloid};
 use cosmorama::laboratory::{CROP, Laboratory, Response, Row, busiest, sheet};
 use cosmorama::raster::{Image, Rgba};
-use cosmorama::sphere::CubeFace;
+use cosmorama::sphere::{Angle, CubeFace, Direction, Orientation};
 use cosmorama::world::{Light, World};
-use testkit::{cube, perspective};
+use testkit::{cube, equirect, omnimax, perspective};
 
 fn filter(kind: FilterKind) -> FilterSettings {
     FilterSettings { kind, ..FilterSettings::DEFAULT }
@@ -89,4 +90,27 @@ fn crops_are_of_the_busiest_places_and_lie_side_by_side() {
     let (one, two) = (sheet(&[row()]), sheet(&[row(), row()]));
     assert!(one.width() == two.width() && two.height() > one.height() + 2 * CROP - 1);
     assert!(one.pixels().iter().all(|pixel| pixel.alpha() == 1.0));
+}
+
+/// As the paper says: a cone over 3/8 of the world in one of Mercator's maps, and on five faces of a cube.
+#[test]
+fn a_wide_reflection_cone_touches_five_faces() {
+    let half_angle = Angle::from_radians(0.25f64.acos());
+    let degrees = Angle::from_degrees;
+    let axis = Orientation::from_yaw_pitch_roll(degrees(25.0), degrees(65.0), degrees(0.0)).to_world(Direction::FRONT);
+    let (svg, touched) = cone(&cube(&CubeFace::ALL, 64, 64), axis, half_angle);
+    assert!(touched == 5 && svg.contains("37.5 % of the world"), "{touched}");
+    let map = World::new([("map".to_owned(), equirect(128))]).expect("one view");
+    assert_eq!(cone(&map, axis, half_angle).1, 1);
+}
+
+#[test]
+fn figures_are_drawings() {
+    let (world, target) = (cube(&CubeFace::ALL, 256, 256), omnimax(400, 292));
+    let gaussian = CrossSection::Gaussian { alpha: 2.0, cutoff: 1.0 };
+    let q = paraboloid(&world, &target, (70, 120)).expect("inside the frame");
+    for svg in [q, circles(&target), kernel(gaussian, "exp(-2 r²)")] {
+        assert!(svg.starts_with("<svg") && svg.ends_with("</svg>\n"), "{svg}");
+    }
+    assert_eq!(paraboloid(&world, &target, (0, 0)), None, "outside the frame");
 }

@@ -6,7 +6,8 @@ use crate::args::convert::LimitArgs;
 use crate::args::with_examples;
 
 /// Example commands in its help.
-pub(in crate::args) const FIGURES_EXAMPLES: [&str; 2] = ["cosmorama figures figures", "cosmorama figures /tmp/figures -y"];
+pub(in crate::args) const FIGURES_EXAMPLES: [&str; 2] =
+    ["cosmorama figures figures", "cosmorama figures /tmp/figures -y"];
 
 /// Remake the figures of the papers from our own pictures.
 ///

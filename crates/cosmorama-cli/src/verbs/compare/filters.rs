@@ -3,9 +3,8 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use anyhow::Result;
-use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
 use cosmorama_convert::{FilterReport, FilterTrial, check_apart, refuse_existing};
-use cosmorama_io::{Metadata, WriteOptions, write};
+use cosmorama_io::Format;
 use cosmorama_spec::FilterName;
 use serde_json::{Value, json};
 
@@ -14,7 +13,7 @@ use crate::args::FiltersArgs;
 use crate::console::Console;
 use crate::pipe::KeptStreams;
 use crate::verbs::convert::Watch;
-use crate::verbs::make_folder;
+use crate::verbs::{make_folder, write_picture};
 
 /// Name of the sheet of crops.
 const CROPS: &str = "crops.png";
@@ -39,7 +38,7 @@ pub(in crate::verbs) fn run(mut args: FiltersArgs, console: &mut Console) -> Res
     watch.finish();
     report.diagnostics.iter().for_each(|diagnostic| console.warn(diagnostic));
     if let Some(crops) = &crops {
-        write_sheet(crops, &report.sheet, console)?;
+        write_picture((crops, Format::Png), &report.sheet, console)?;
     }
     let text = match (args.json, args.csv) {
         (true, _) => json_text(&args, &report, crops.as_deref())?,
@@ -60,15 +59,10 @@ fn filters(args: &FiltersArgs) -> Vec<FilterName> {
     FilterName::NAMES.iter().filter_map(|(name, _)| name.parse().ok()).collect()
 }
 
-fn write_sheet(path: &Path, sheet: &Image<Rgba>, console: &Console) -> Result<()> {
-    let encoded = EncodedImage::encode(sheet, Channels::Rgb, Depth::Eight, &Transfer::Srgb);
-    let metadata = Metadata { transfer: Some(Transfer::Srgb), ..Metadata::default() };
-    let options = WriteOptions { unfinished: console.unfinished.clone(), ..WriteOptions::with_metadata(metadata) };
-    Ok(write(path, &encoded, &options)?)
-}
+/// A column of the table: its head, and the words of a trial.
+type Column = (&'static str, fn(&FilterTrial) -> String);
 
-/// Columns of the table, each with the words of a trial.
-const COLUMNS: [(&str, fn(&FilterTrial) -> String); 9] = [
+const COLUMNS: [Column; 9] = [
     ("filter", |trial| trial.filter.to_string()),
     ("reference dB", |trial| format!("{:.2}", trial.to_reference)),
     ("direct dB", |trial| optional(trial.to_truth, 2)),

@@ -11,11 +11,13 @@ use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
 use cosmorama::render::Resampler;
 use cosmorama::sphere::{Angle, CubeFace, Direction, Orientation};
 use cosmorama::world::{Light, World};
-use cosmorama_builtin::BuiltinWorld;
 use cosmorama_convert::{refuse_existing, threads};
 use cosmorama_io::{Metadata, WriteOptions, write};
 
-use super::{FACE, FACES, FRAME, PartialFace, face_file, face_view, needed_faces, render_face, tell, unfolded};
+use super::{
+    FACE, FACES, FRAME, PartialFace, face_file, face_view, from, needed_faces, render_face, repeatable_conversion,
+    tell, unfolded,
+};
 use crate::args::FiguresArgs;
 use crate::console::Console;
 use crate::verbs::{diagram, make_folder};
@@ -31,11 +33,18 @@ const PARABOLOID: &str = "figure-8";
 const KERNEL: &str = "figure-9";
 const CONE_IN_MERCATOR: &str = "world-projections-2-mercator";
 const CONE_ON_CUBE: &str = "world-projections-2-cube";
-const DRAWINGS: [&str; 8] =
-    [UNFOLDED, OWNERSHIP, SCREEN, TEXTURE, PARABOLOID, KERNEL, CONE_IN_MERCATOR, CONE_ON_CUBE];
+const DRAWINGS: [&str; 8] = [UNFOLDED, OWNERSHIP, SCREEN, TEXTURE, PARABOLOID, KERNEL, CONE_IN_MERCATOR, CONE_ON_CUBE];
 
-/// Places of the frame that show aliasing: beside the rim, where a pixel holds most texels.
-const PLACES: [Crop; 4] = [(60, 560), (300, 260), (950, 20), (950, 700)];
+/// Size of the frame that shows aliasing: a third of the paper's, so that a pixel holds two texels to four.
+const SMALL: (usize, usize) = (655, 478);
+
+/// Side of a check, in texels.
+const CHECK: usize = 4;
+
+const WHITE: Rgba = Rgba::opaque(1.0, 1.0, 1.0);
+
+/// Places of that frame, from the rim to the middle.
+const PLACES: [Crop; 4] = [(24, 210), (110, 110), (300, 16), (300, 210)];
 
 /// Pixel whose paraboloid is drawn.
 const PIXEL: (usize, usize) = (330, 560);
@@ -52,7 +61,9 @@ pub(in crate::verbs) fn run(args: &FiguresArgs, console: &Console) -> Result<Exi
     for partial in &faces {
         pool.install(|| render_face(partial, &args.dir.join(FACES), console))?;
     }
-    pool.install(|| pictures(&args.dir, &target, console))?;
+    let (source, frame) = (args.dir.join(FACES).join("{face}.png"), args.dir.join(FRAME_PICTURE));
+    repeatable_conversion(&args.limits, &source, &frame, &from(&faces), FilterKind::Ewa, console)?;
+    pool.install(|| aliasing(&args.dir.join(ALIASING), console))?;
     pool.install(|| drawings(&args.dir, &faces, &target, console))?;
     Ok(ExitCode::SUCCESS)
 }
@@ -64,40 +75,28 @@ fn outputs(folder: &Path, faces: &[PartialFace]) -> Vec<PathBuf> {
     faces.chain(pictures).chain(DRAWINGS.iter().flat_map(|name| diagram::files(folder, name))).collect()
 }
 
-/// Makes figures 5 and 6, which are pixels.
-fn pictures(folder: &Path, target: &View, console: &Console) -> Result<()> {
+/// Makes figure 6: checkerboard faces, point-sampled and filtered.
+fn aliasing(path: &Path, console: &Console) -> Result<()> {
     let start = Instant::now();
-    let (world, light) = cube(BuiltinWorld::Demo)?;
-    let frame = by(&world, target, FilterKind::Ewa, &light);
-    save(&folder.join(FRAME_PICTURE), &frame, ("the Omnimax frame", start), console)?;
-    let start = Instant::now();
-    let (world, light) = cube(BuiltinWorld::Checker)?;
-    let rows = [("point sampling", FilterKind::Point), ("filtering", FilterKind::Ewa)]
-        .map(|(name, kind)| Row::new(vec![name.to_owned()], &by(&world, target, kind, &light), &PLACES));
-    save(&folder.join(ALIASING), &sheet(&rows), ("checkerboard faces, point-sampled and filtered", start), console)
-}
-
-/// Renders a world by formula on whole faces.
-fn cube(formula: BuiltinWorld) -> Result<(World, Light)> {
-    let views: Vec<(String, View)> =
-        CubeFace::ALL.iter().map(|&face| Ok((face.name().to_owned(), face_view(face, None, FACE, FACE)?))).collect::<Result<_>>()?;
-    let pictures: Vec<Image<Rgba>> = views.iter().map(|(_, view)| formula.picture(view)).collect();
-    let world = World::new(views)?;
-    let light = Light::of_pictures(&world, pictures)?;
-    Ok((world, light))
-}
-
-fn by(world: &World, target: &View, kind: FilterKind, light: &Light) -> Image<Rgba> {
-    Resampler { world, target, filter: FilterSettings { kind, ..FilterSettings::DEFAULT } }
-        .render_over(light.texels(), Rgba::BLACK)
-}
-
-fn save(path: &Path, picture: &Image<Rgba>, (what, start): (&str, Instant), console: &Console) -> Result<()> {
-    let encoded = EncodedImage::encode(picture, Channels::Rgb, Depth::Eight, &Transfer::Srgb);
+    let (world, target) = (cube()?, CameraModel::Omnimax(OmnimaxCamera::default()).view(SMALL.0, SMALL.1)?);
+    let check = |i: usize, j: usize| if (i / CHECK + j / CHECK).is_multiple_of(2) { Rgba::BLACK } else { WHITE };
+    let light = Light::of_pictures(&world, CubeFace::ALL.map(|_| Image::from_fn(FACE, FACE, check)))?;
+    let rows = [("point sampling", FilterKind::Point), ("filtering", FilterKind::Ewa)].map(|(name, kind)| {
+        let filter = FilterSettings { kind, ..FilterSettings::DEFAULT };
+        let picture = Resampler { world: &world, target: &target, filter }.render(light.texels());
+        Row::new(vec![name.to_owned()], &picture, &PLACES)
+    });
+    let encoded = EncodedImage::encode(&sheet(&rows), Channels::Rgb, Depth::Eight, &Transfer::Srgb);
     let metadata = Metadata { transfer: Some(Transfer::Srgb), ..Metadata::default() };
     let options = WriteOptions { unfinished: console.unfinished.clone(), ..WriteOptions::with_metadata(metadata) };
     write(path, &encoded, &options)?;
-    tell(console, path, what, start)
+    tell(console, path, "checkerboard faces, point-sampled and filtered", start)
+}
+
+/// Returns all six faces, whole.
+fn cube() -> Result<World> {
+    let view = |face: &CubeFace| Ok((face.name().to_owned(), face_view(*face, None, FACE, FACE)?));
+    Ok(World::new(CubeFace::ALL.iter().map(view).collect::<Result<Vec<_>>>()?)?)
 }
 
 /// Draws the other figures.
@@ -110,7 +109,7 @@ fn drawings(folder: &Path, faces: &[PartialFace], target: &View, console: &Conso
     let (axis, half_angle) = (tilted_up(), Angle::from_degrees(75.522));
     let sky = CameraModel::Cylinder(CylinderCamera::new(CylinderKind::Mercator)).view(960, 720)?;
     let mercator = World::new([("Mercator".to_owned(), sky)])?;
-    let (cube, _) = cube(BuiltinWorld::Directions)?;
+    let cube = cube()?;
     let drawings = [
         (UNFOLDED, unfolded(faces, target)?, "the unfolded cube with the field of view"),
         (OWNERSHIP, of_frame.ownership(), "which face gives which pixel"),

@@ -20,6 +20,7 @@ use cosmorama_io::{FacePlacement, Metadata, WriteOptions, write};
 use cosmorama_spec::{Cube, FilterName, Size};
 
 use super::{convert, diagram, make_folder};
+use crate::args::convert::LimitArgs;
 use crate::args::{DemoArgs, ProgressStyle};
 use crate::console::Console;
 use crate::failure::usage;
@@ -65,7 +66,7 @@ pub(super) fn run(args: &DemoArgs, console: &Console) -> Result<ExitCode> {
     }
     let source = folder.join("{face}.png");
     for (name, filter) in FRAMES {
-        repeatable_conversion(args, &source, &args.dir.join(name), &from(&faces), filter, console)?;
+        repeatable_conversion(&args.limits, &source, &args.dir.join(name), &from(&faces), filter, console)?;
     }
     pool.install(|| draw_unfolded(&args.dir, &faces, &target, console))?;
     if let Some(frames) = args.animation {
@@ -132,7 +133,7 @@ fn from(faces: &[PartialFace]) -> String {
 
 /// Converts as the printed command does.
 fn repeatable_conversion(
-    args: &DemoArgs,
+    limits: &LimitArgs,
     input: &Path,
     output: &Path,
     from: &str,
@@ -147,7 +148,7 @@ fn repeatable_conversion(
         .size(Size { width: FRAME.0, height: Some(FRAME.1) })
         .filter(FilterName(filter))
         .existing(Existing::Replace);
-    conversion.limits = args.limits.clone().into();
+    conversion.limits = limits.clone().into();
     convert::convert(conversion, ProgressStyle::Auto, console)?;
     tell(console, output, "the Omnimax frame", start)?;
     let size = format!("{}x{}", FRAME.0, FRAME.1);

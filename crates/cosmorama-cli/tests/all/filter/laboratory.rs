@@ -69,3 +69,11 @@ fn what_cannot_be_compared_is_refused() {
     fail(&["face_{face}.png", "--to", "fulldome", "--only", "ewa,sinc"], &["sinc"]);
     fail(&["face_{face}.png", "--to", "fulldome", "--json", "--csv"], &["--csv"]);
 }
+
+#[test]
+fn figures_replace_nothing_unasked() {
+    let bench = Bench::new();
+    std::fs::create_dir(bench.path("figures")).unwrap();
+    std::fs::write(bench.path("figures/figure-8.svg"), "mine").unwrap();
+    assert_says(&bench.fail(1, &["figures", "figures"]), &["figure-8.svg", "exist", "-y"]);
+}

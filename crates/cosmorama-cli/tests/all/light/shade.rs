@@ -265,26 +265,17 @@ fn models_have_materials_and_cameras_of_their_own() {
     let numbers = corners.iter().flatten().flat_map(|number| number.to_le_bytes());
     std::fs::write(bench.path("square.bin"), numbers.chain([0, 1, 2, 3]).collect::<Vec<u8>>()).unwrap();
     std::fs::write(bench.path("square.gltf"), SQUARE).unwrap();
-    let shade = |args: &[&str]| [&["shade", "white.exr", "out.exr", "--object", "square.gltf"], args].concat();
+    let shade = ["shade", "white.exr", "out.exr", "--object", "square.gltf"];
     for camera in ["gltf", "gltf:above"] {
-        bench.succeed(&shade(&[
-            "--material",
-            "own",
-            "--camera",
-            camera,
-            "--size",
-            "64",
-            "--background",
-            "black",
-            "-y",
-        ]));
+        let seen = ["--material", "own", "--camera", camera, "--size", "64", "--background", "black", "-y"];
+        bench.succeed(&[&shade[..], &seen].concat());
         let image = light(&bench, "out.exr");
         // Twice as wide as high, as the file says; the square fills its height.
         assert_eq!((image.width(), image.height()), (64, 32));
         let (shown, beside) = (image.get(32, 2).0, image.get(8, 16).0);
         assert!((shown[1] - 1.0).abs() < 1e-3 && shown[0] < 1e-3 && beside[1] == 0.0, "{shown:?} {beside:?}");
     }
-    let fail = |args: &[&str]| bench.fail(2, &shade(args));
+    let fail = |args: &[&str]| bench.fail(2, &[&shade[..], args].concat());
     assert_says(&fail(&["--camera", "gltf:below"]), &["--camera gltf:below", "there are above"]);
     assert_says(&fail(&["--camera", "gltf", "--eye", "0,0,1"]), &["--eye", "leave"]);
     assert_says(&fail(&["--material", "own", "--dc", "1"]), &["--material own", "--dc"]);

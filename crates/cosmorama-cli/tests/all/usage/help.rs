@@ -6,7 +6,19 @@ use crate::bench::{Bench, assert_says, text};
 use cosmorama_spec::{FilterName, KernelName, SpecKind, TransferName};
 
 const VERBS: [&str; 14] = [
-    "demo", "convert", "light", "shade", "plates", "info", "explain", "compare", "verify", "filters", "figures", "completions", "man",
+    "demo",
+    "convert",
+    "light",
+    "shade",
+    "plates",
+    "info",
+    "explain",
+    "compare",
+    "verify",
+    "filters",
+    "figures",
+    "completions",
+    "man",
     "help",
 ];
 

@@ -16,7 +16,7 @@ pub fn cone(world: &World, axis: Direction, half_angle: Angle) -> (String, usize
     let (touched, count) = (touched.count(), world.sources().len());
     let part = 50.0 * (1.0 - half_angle.radians().cos());
     let views = if count == 1 { "view" } else { "views" };
-    let subtitle = format!("A cone over {part:.0} % of the world. It touches {touched} of {count} {views}.");
+    let subtitle = format!("A cone over {part:.1} % of the world. It touches {touched} of {count} {views}.");
     let mut drawing = sheet(net.size, "A reflection cone", &subtitle);
     for (index, (source, &frame)) in images().enumerate() {
         let region = region(source, frame, (axis, half_angle));
@@ -30,11 +30,7 @@ pub fn cone(world: &World, axis: Direction, half_angle: Angle) -> (String, usize
 }
 
 /// Returns which points of an image lie in the cone.
-fn region(
-    source: &Source,
-    frame: Rect,
-    (axis, half_angle): (Direction, Angle),
-) -> Regions<impl Fn(f64, f64) -> bool> {
+fn region(source: &Source, frame: Rect, (axis, half_angle): (Direction, Angle)) -> Regions<impl Fn(f64, f64) -> bool> {
     let (columns, rows) = (source.view.width() as f64, source.view.height() as f64);
     let least = half_angle.radians().cos();
     let label = move |u: f64, v: f64| {

@@ -1,9 +1,9 @@
 use glam::{DMat2, DVec2};
 
+use crate::camera::View;
 use crate::explain::sheet::drawing::{Anchor, Paint, Rect};
 use crate::explain::sheet::heading::sheet;
 use crate::explain::sheet::theme::{CURVE, FAINT, HEADER, INK, LABEL, MARGIN, SMALL};
-use crate::camera::View;
 use crate::filter::{Ellipse, semi_axes};
 use crate::world::World;
 
@@ -34,7 +34,7 @@ fn drawn(jacobian: DMat2) -> String {
     let middle = DVec2::new(MARGIN + width / 2.0, HEADER + height / 2.0);
     let ellipse = Ellipse::new(jacobian, 1.0);
     let (major, minor, angle) = ellipse.axes();
-    let subtitle = "Q = AU² + BUV + CV²; the outer contour is Q = F. Dots are centres of texels.";
+    let subtitle = "Q = A U² + B U V + C V²; the outer contour is Q = F. Dots are centres of texels.";
     let mut drawing = sheet((width + 2.0 * MARGIN, height + HEADER + MARGIN), "Contours of Q", subtitle);
     let half = ellipse.half_extent(1.0) * TEXEL;
     let around = Rect { x: middle.x - half.x, y: middle.y - half.y, width: 2.0 * half.x, height: 2.0 * half.y };
@@ -57,10 +57,7 @@ fn drawn(jacobian: DMat2) -> String {
     drawing.label("U", (MARGIN + width - 14.0, middle.y - 6.0), SMALL, Anchor::Start, INK);
     drawing.label("V", (middle.x + 6.0, HEADER + height - 4.0), SMALL, Anchor::Start, INK);
     drawing.polylines(
-        [
-            &[(MARGIN, middle.y), (MARGIN + width, middle.y)][..],
-            &[(middle.x, HEADER), (middle.x, HEADER + height)][..],
-        ],
+        [&[(MARGIN, middle.y), (MARGIN + width, middle.y)][..], &[(middle.x, HEADER), (middle.x, HEADER + height)][..]],
         Paint::stroke(FAINT, 1.0),
     );
     drawing.finish("Contours of Q")

@@ -42,9 +42,8 @@ impl Plot {
         let mut drawing = sheet(size, &self.title, &self.subtitle);
         let frame = Rect { x: MARGIN + LEFT, y: HEADER, width: WIDTH, height: HEIGHT };
         drawing.rect(frame, Paint::fill("#ffffff"));
-        let place = |(x, y): Point| {
-            (frame.x + across.part(x) * frame.width, frame.y + (1.0 - up.part(y)) * frame.height)
-        };
+        let place =
+            |(x, y): Point| (frame.x + across.part(x) * frame.width, frame.y + (1.0 - up.part(y)) * frame.height);
         for tick in across.all() {
             let (x, _) = place((tick, up.first));
             drawing.polylines([&[(x, frame.y), (x, frame.y + HEIGHT)][..]], Paint::stroke(FAINT, 0.7));
@@ -64,7 +63,7 @@ impl Plot {
         }
         let below = (frame.x + WIDTH / 2.0, frame.y + HEIGHT + 38.0);
         drawing.label(&self.axes[0], below, LABEL * 0.8, Anchor::Middle, INK);
-        drawing.label(&self.axes[1], (MARGIN, frame.y - 12.0), LABEL * 0.8, Anchor::Start, INK);
+        drawing.label(&self.axes[1], (MARGIN, frame.y - 6.0), SMALL, Anchor::Start, INK);
         drawing.rect(frame, Paint::stroke(INK, 1.2));
         drawing.finish(&self.title)
     }
@@ -80,8 +79,9 @@ struct Ticks {
 impl Ticks {
     /// Chooses five to ten steps of 1, 2 or 5 times a power of ten.
     fn of(values: impl Iterator<Item = f64>) -> Self {
-        let (least, most) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), value| (a.min(value), b.max(value)));
-        if !(most > least) {
+        let (least, most) =
+            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), value| (a.min(value), b.max(value)));
+        if most <= least || least.is_infinite() {
             let only = if least.is_finite() { least } else { 0.0 };
             return Self { first: only - 1.0, last: only + 1.0, step: 1.0 };
         }
@@ -114,7 +114,10 @@ mod tests {
     #[test]
     fn axes_have_round_numbers() {
         let ticks = Ticks::of([0.03, 0.97].into_iter());
-        assert_eq!(ticks.all().map(|tick| ticks.text(tick)).collect::<Vec<_>>(), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
+        assert_eq!(
+            ticks.all().map(|tick| ticks.text(tick)).collect::<Vec<_>>(),
+            ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]
+        );
         let ticks = Ticks::of([-63.0, -4.0].into_iter());
         assert_eq!((ticks.first, ticks.last, ticks.step), (-70.0, 0.0, 10.0));
         assert_eq!(Ticks::of([2.0].into_iter()).all().count(), 3);

@@ -194,7 +194,10 @@ fn it_stays_near_to_ewa() {
 fn two_levels_are_within_forty_decibels_of_ewa_on_a_zone_plate() {
     let world = cube(&CubeFace::ALL, 1024, 1024);
     let light = light_by_direction(&world, |direction| {
-        direction.vector().to_array().map(|along| (0.5 + 0.5 * (150.0 * along.clamp(-1.0, 1.0).acos().powi(2)).cos()) as f32)
+        direction
+            .vector()
+            .to_array()
+            .map(|along| (0.5 + 0.5 * (150.0 * along.clamp(-1.0, 1.0).acos().powi(2)).cos()) as f32)
     });
     for shrink in [4.0, 16.0, 64.0] {
         let psnr = nearness_to_ewa(&world, &dome(512.0, shrink), &light);
