@@ -8,7 +8,7 @@ use super::thin_alpha::FULL;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct StraightAlpha {
     partial: usize,
-    /// Those whose colour exceeds their alpha. Light that glows may do so.
+    /// Pixels of these whose colour exceeds their alpha. Light that glows may do so.
     above: usize,
 }
 

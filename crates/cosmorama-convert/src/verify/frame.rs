@@ -11,7 +11,7 @@ use crate::colour::InputTransfer;
 use crate::job::settings_of;
 use crate::source::{Files, read};
 
-/// What is kept of a frame that was read.
+/// Summary of a frame that was read.
 #[derive(Clone, Debug)]
 pub(super) struct Frame {
     pub(super) number: u64,

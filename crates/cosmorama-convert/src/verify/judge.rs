@@ -9,7 +9,7 @@ use super::frame::{Found, Frame, Picture};
 pub struct Faults {
     /// Number of the frame.
     pub frame: u64,
-    /// What is wrong with it.
+    /// List of its faults.
     pub faults: Vec<Fault>,
 }
 
@@ -24,7 +24,7 @@ pub enum Fault {
     Size {
         /// Its columns and rows.
         found: (usize, usize),
-        /// Those that it should have.
+        /// Columns and rows that it should have.
         expected: Size,
     },
     /// The picture has other channels or another depth than most; what it has, in words.
@@ -128,7 +128,7 @@ mod tests {
     use super::super::frame::CELLS;
     use super::*;
 
-    /// A picture of one grey.
+    /// Makes a picture of one grey.
     fn grey(code: u8) -> Picture {
         Picture {
             size: (8, 4),

@@ -277,7 +277,7 @@ mod tests {
         }
     }
 
-    /// Interpolation errs by an eighth of the second derivative, 4 of exp(−2 q), times the square of a step.
+    /// Checks that interpolation errs by an eighth of the second derivative, 4 of exp(−2 q), times the square of a step.
     #[test]
     fn a_table_of_a_gaussian_is_as_exact_as_it_is_long() {
         let gaussian = CrossSection::Gaussian { alpha: 2.0, cutoff: 1.0 };

@@ -109,7 +109,7 @@ fn choose(n: i64, k: i64) -> i128 {
     (0..k).fold(1, |ways, i| ways * i128::from(n - i) / i128::from(i + 1))
 }
 
-/// A width or a place between two whole numbers: the lower, and the part of the upper.
+/// Returns the whole number below a width or a place, and the part of the next one.
 fn between(value: f64) -> [(i64, f64); 2] {
     let lower = value.floor();
     [(lower as i64, 1.0 - (value - lower)), (lower as i64 + 1, value - lower)]
