@@ -31,11 +31,11 @@ const BODY: [([f64; 3], [f64; 2]); 15] = [
 ];
 
 /// Rows of scales along the body, and scales around it.
-const ROWS: f64 = 50.0;
-const AROUND: f64 = 12.0;
+const ROWS: f64 = 40.0;
+const AROUND: f64 = 10.0;
 
 /// Height of scales, as a part of the body's radius.
-const RELIEF: f64 = 0.06;
+const RELIEF: f64 = 0.04;
 
 /// Legs on the far side: the axis from the body to the foot.
 const FORE_LEG: [[f64; 3]; 4] = [[0.40, 0.38, -0.12], [0.47, 0.36, -0.38], [0.40, 0.16, -0.47], [0.52, 0.035, -0.54]];
@@ -132,6 +132,7 @@ fn leg(axis: [[f64; 3]; 4]) -> Vec<Face> {
 /// Makes an oval disc whose upper side is the ground.
 fn stone() -> Vec<Face> {
     let ring = |y: f64, part: f64| Ring { at: DVec3::new(-0.2, y, 0.05), radii: [0.95 * part, 1.85 * part] };
-    let rings = [ring(-0.16, 1.0), ring(-0.12, 1.0), ring(-0.04, 1.0), ring(0.0, 0.98)];
-    Tube { rings: &rings, up: DVec3::X, steps: [24, 96] }.faces(STONE, |_, _| 0.0)
+    let rings = [(-0.16, 0.9), (-0.16, 1.0), (-0.1, 1.0), (-0.02, 1.0), (0.0, 0.97), (0.0, 0.9), (0.0, 0.4)];
+    let rings = rings.map(|(y, part)| ring(y, part));
+    Tube { rings: &rings, up: DVec3::X, steps: [48, 96] }.faces(STONE, |_, _| 0.0)
 }

@@ -12,7 +12,7 @@ use crate::shape::{Face, Mesh, Normals, Shape, Sphere};
 /// Place of the eye, the middle of a pixel on the screen before it, and half of the pixel's side.
 const EYE: DVec3 = dvec3(-3.4, 1.5, 0.6);
 const PIXEL: DVec3 = dvec3(-1.883, 0.945, 0.193);
-const HALF: f64 = 0.11;
+const HALF: f64 = 0.075;
 
 /// Pixels around that one, to each side.
 const AROUND: i32 = 1;

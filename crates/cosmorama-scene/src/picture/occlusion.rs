@@ -8,12 +8,13 @@ use crate::ray::{Ray, RayChange};
 use crate::scene::Scene;
 use crate::shape::Wall;
 
-/// Rays for each place: as many rings, weighed by the cosine, as rays in each.
-const SIDE: usize = 8;
+/// Rays for each place, and the turn from each to the next, the golden angle: together they fill a disc evenly (H. Vogel, *A
+/// better way to construct the sunflower head*, 1979).
+const RAYS: usize = 64;
+const TURN: f64 = 2.399_963_229_728_653;
 
-/// Steps of the fractional parts of places, in space, by which the rays of neighbours differ: roots of the polynomial
-/// x⁴ = x + 1, and its powers, which fill cubes evenly (M. Roberts, *The unreasonable effectiveness of quasirandom
-/// sequences*, 2018).
+/// Factors on places by whose fractional parts the rays of neighbours differ: powers of 1/x with x⁴ = x + 1, which fill cubes
+/// evenly (M. Roberts, *The unreasonable effectiveness of quasirandom sequences*, 2018).
 const STEPS: [DVec3; 2] = [
     DVec3::new(0.819_172_513_396_164_4, 0.671_043_606_703_789_2, 0.549_700_477_901_970_3),
     DVec3::new(0.671_043_606_703_789_2, 0.549_700_477_901_970_3, 0.819_172_513_396_164_4),
@@ -26,21 +27,20 @@ const GRAIN: f64 = 1e-3;
 ///
 /// The rays of a place are those of its coordinates, so that pictures do not depend on threads.
 pub(super) fn openness(scene: &Scene, wall: &Wall) -> f64 {
-    let normal = wall.normal.facing(&wall.met).unit;
+    // On the side that is seen, even where smooth normals lean away from the eye.
+    let normal = wall.normal.unit;
     let (right, up) = normal.any_orthonormal_pair();
     let size = scene.objects.iter().map(|object| object.shape.ball().radius).fold(f64::INFINITY, f64::min);
     let grain = (wall.met.origin / (GRAIN * size)).floor();
     let [around, outward] = STEPS.map(|step| grain.dot(step).rem_euclid(1.0));
     let is_open = |k: usize| {
         // Equal parts of the disc under the hemisphere are equal parts of the light (Malley's method).
-        let radius = (((k / SIDE) as f64 + outward) / SIDE as f64).sqrt();
-        let turn = TAU * (((k % SIDE) as f64 + around) / SIDE as f64);
-        let (y, x) = turn.sin_cos();
+        let radius = ((k as f64 + outward) / RAYS as f64).sqrt();
+        let (y, x) = (TURN * k as f64 + TAU * around).sin_cos();
         let direction = (right * x + up * y) * radius + normal * (1.0 - radius * radius).max(0.0).sqrt();
         !is_hidden(scene, wall.met.origin, direction)
     };
-    let open = (0..SIDE * SIDE).filter(|k| is_open(*k)).count();
-    open as f64 / (SIDE * SIDE) as f64
+    (0..RAYS).filter(|k| is_open(*k)).count() as f64 / RAYS as f64
 }
 
 /// Returns whether something is met on the way from a place.

@@ -39,7 +39,7 @@ pub(super) fn spheres(studio: &Studio) -> Result<Image<Rgba>> {
 pub(super) fn reflection_cone(studio: &Studio) -> Result<Image<Rgba>> {
     let place = Place { eye: [-1.6, 3.4, 9.0].into(), target: [-0.9, 0.75, 0.0].into() };
     let camera = Camera::lens(place, perspective(studio, 36.0)?)?;
-    shaded(studio, &Scene::reflection_cone(), &camera, (Background::Colour(PAPER), true))
+    shaded(studio, &Scene::reflection_cone(), &camera, (Background::Colour(PAPER), false))
 }
 
 fn perspective(studio: &Studio, field: f64) -> Result<View> {
