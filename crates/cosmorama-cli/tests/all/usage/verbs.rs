@@ -182,6 +182,6 @@ fn all_plates_and_figures_are_made_and_none_is_replaced_unasked() {
     }
     let frame = bench.load("made/plate7.png");
     assert_eq!((frame.width(), frame.height()), (122, 89));
-    assert_says(&bench.fail(1, &["plates", "made", "--size", "48"]), &["exists", "-y"]);
+    assert_says(&bench.fail(1, &["plates", "made", "--size", "48"]), &["outputs exist", "made/plate1.png", "-y"]);
     assert_says(&bench.fail(2, &["plates", "others", "--size", "9"]), &["--size", "from 32 to 8192"]);
 }
