@@ -114,9 +114,9 @@ fn lens(args: &ShadeArgs, spec: Spec, asked: &Asked, scene: &Scene) -> Result<Ve
     let settings =
         ExplanationSettings { geometry, limits: args.limits.clone().into(), ..ExplanationSettings::default() };
     let explanation = settings.check().result.map_err(of_camera)?;
-    // Checks the size, too.
-    explanation.worlds().map_err(of_camera)?;
     let pictures = explanation.pictures();
+    let budget = MemoryBudget::new(args.limits.memory);
+    pictures.iter().try_for_each(|picture| budget.check_picture((picture.view.width(), picture.view.height())))?;
     if pictures.len() > 1 && pictures.iter().any(|picture| picture.place.is_none()) {
         return Err(usage(
             "--camera: one picture is made, but a cube has six; put them into one image, as in --camera cube:layout=3x2",
