@@ -10,32 +10,30 @@ const BINS: f64 = 5.0;
 /// Returns the width over which edges go from 10 % to 90 %: the edge's shape is the mean of all pixels at one distance, as
 /// the slanted-edge method has it (ISO 12233).
 pub(super) fn width(probes: &[Probe], image: &Image<Rgba>) -> Option<f64> {
-    let shape = shape(probes, image)?;
-    let middle = shape.len() / 2;
+    let shape = shape(probes, image);
+    let middle = shape.partition_point(|(distance, _)| *distance < 0.0);
     // From the middle outwards, so that ringing farther out is not taken for the edge.
-    let dark = (0..middle).rev().find(|&at| shape[at] < 0.1)?;
-    let bright = (middle..shape.len()).find(|&at| shape[at] > 0.9)?;
-    let low = crossing(dark, shape[dark], shape[dark + 1], 0.1);
-    let high = crossing(bright - 1, shape[bright - 1], shape[bright], 0.9);
-    Some((high - low) / BINS)
+    let dark = (0..middle).rev().find(|&at| shape[at].1 < 0.1)?;
+    let bright = (middle..shape.len()).find(|&at| shape[at].1 > 0.9)?;
+    Some(crossing(shape[bright - 1], shape[bright], 0.9) - crossing(shape[dark], shape[dark + 1], 0.1))
 }
 
-/// Returns the mean brightness by distance from an edge, from dark to bright. `None` if no pixel has one of the distances.
-fn shape(probes: &[Probe], image: &Image<Rgba>) -> Option<Vec<f64>> {
+/// Returns the mean brightness at distances from an edge, from dark to bright, where there are pixels.
+fn shape(probes: &[Probe], image: &Image<Rgba>) -> Vec<(f64, f64)> {
     let count = (2.0 * REACH * BINS) as usize;
     let mut bins = vec![(0.0, 0usize); count];
     for probe in probes.iter().filter(|probe| probe.from_edge.abs() < REACH) {
         let blue = f64::from(image.pixels()[probe.pixel].0[2]);
-        let (brightness, distance) = if probe.rises { (blue, probe.from_edge) } else { (1.0 - blue, probe.from_edge) };
-        let bin = &mut bins[((distance + REACH) * BINS) as usize];
-        *bin = (bin.0 + brightness, bin.1 + 1);
+        let bin = &mut bins[((probe.from_edge + REACH) * BINS) as usize];
+        *bin = (bin.0 + if probe.rises { blue } else { 1.0 - blue }, bin.1 + 1);
     }
-    bins.into_iter().map(|(sum, pixels)| (pixels > 0).then(|| sum / pixels as f64)).collect()
+    let full = bins.into_iter().enumerate().filter(|(_, (_, pixels))| *pixels > 0);
+    full.map(|(bin, (sum, pixels))| ((bin as f64 + 0.5) / BINS - REACH, sum / pixels as f64)).collect()
 }
 
-/// Returns where a line from one bin to the next reaches a value, in bins.
-fn crossing(bin: usize, from: f64, to: f64, value: f64) -> f64 {
-    bin as f64 + (value - from) / (to - from)
+/// Returns the distance at which a line between two points of the shape reaches a value.
+fn crossing(from: (f64, f64), to: (f64, f64), value: f64) -> f64 {
+    from.0 + (value - from.1) / (to.1 - from.1) * (to.0 - from.0)
 }
 
 #[cfg(test)]

@@ -40,7 +40,9 @@ impl<'a> Pattern<'a> {
     /// Centres the pattern on a target.
     pub(super) fn over(target: &'a View) -> Self {
         let (width, height) = (target.width() as f64, target.height() as f64);
-        Self { target, middle: PixelPoint::new(width / 2.0, height / 2.0), radius: width.min(height) / 2.0 }
+        // Beside the middle, so that distances of pixels from it are many: around it they would come in eights.
+        let middle = PixelPoint::new(width / 2.0 + 0.31, height / 2.0 + 0.17);
+        Self { target, middle, radius: width.min(height) / 2.0 }
     }
 
     /// Lays the pattern over a world. Outside of the target it is grey.
