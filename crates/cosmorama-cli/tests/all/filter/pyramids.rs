@@ -10,6 +10,22 @@ fn bench() -> Bench {
     bench
 }
 
+/// Two levels, interpolated, of a detailed world, where a pixel holds 4, 16 and 64 texels each way.
+#[test]
+fn the_demo_is_within_forty_decibels_of_ewa_at_any_shrink() {
+    let bench = Bench::new();
+    bench.succeed(&["convert", "builtin:demo", "{face}.png", "--to", "cube", "--size", "512"]);
+    for size in ["201", "50", "13"] {
+        for filter in ["ewa", "ewa-pyramid"] {
+            let output = format!("{filter}.exr");
+            let turned = ["--yaw", "20", "--pitch", "35", "--roll", "10", "--depth", "float", "-y"];
+            let args = ["convert", "{face}.png", &output, "--to", "fulldome", "--size", size, "--filter", filter];
+            bench.succeed(&[&args[..], &turned].concat());
+        }
+        bench.succeed(&["compare", "ewa.exr", "ewa-pyramid.exr", "--region", "disc", "--min-psnr", "40"]);
+    }
+}
+
 #[test]
 fn a_small_dome_is_near_to_ewa_and_takes_fewer_texels() {
     let bench = bench();
