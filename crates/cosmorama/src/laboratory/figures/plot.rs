@@ -63,7 +63,7 @@ impl Plot {
         }
         let below = (frame.x + WIDTH / 2.0, frame.y + HEIGHT + 38.0);
         drawing.label(&self.axes[0], below, LABEL * 0.8, Anchor::Middle, INK);
-        drawing.label(&self.axes[1], (MARGIN, frame.y - 6.0), SMALL, Anchor::Start, INK);
+        drawing.label(&self.axes[1], (frame.x, frame.y - 6.0), SMALL, Anchor::Start, INK);
         drawing.rect(frame, Paint::stroke(INK, 1.2));
         drawing.finish(&self.title)
     }
