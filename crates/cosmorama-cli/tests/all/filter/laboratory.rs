@@ -56,7 +56,7 @@ fn a_direct_render_is_the_truth() {
     // Rounded to 16 bits.
     assert!(psnr(0) > 90.0 && psnr(1) < 60.0, "{report}");
     let args = ["filters", "face_{face}.png", "--to", "perspective", "--size", "64", "--truth", "direct.png"];
-    assert_says(&bench.fail(2, &args), &["direct.png", "96x96", "--size"]);
+    assert_says(&bench.fail(2, &args), &["direct.png", "96x72", "--size"]);
 }
 
 #[test]
