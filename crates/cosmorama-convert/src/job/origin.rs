@@ -51,7 +51,7 @@ impl Origin {
         let read: BTreeSet<PathBuf> = views.chain(self.beside.iter().cloned()).collect();
         let ends: Vec<Option<u64>> = read.iter().map(|path| ends(files, path)).collect();
         let Self { geometry, filter, colour, .. } = self;
-        let input = digest(&(frame, ends));
+        let input = digest(&ends);
         Some(format!("geometry {geometry:08x}, filter {filter:08x}, colour {colour:08x}, input {input:08x}"))
     }
 }

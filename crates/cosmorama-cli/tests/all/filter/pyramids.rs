@@ -77,7 +77,7 @@ fn a_sequence_by_pyramid_is_the_same_as_its_frames() {
         bench.succeed(&[&["convert", "sky_#.png", "dome_#.png", "--memory", memory][..], &how].concat());
         for frame in 1..=3 {
             bench.succeed(&[&["convert", &format!("sky_{frame}.png"), "one.png"][..], &how].concat());
-            assert!(bench.bytes("one.png") == bench.bytes(&format!("dome_{frame}.png")), "frame {frame}, {memory}");
+            assert!(bench.load("one.png") == bench.load(&format!("dome_{frame}.png")), "frame {frame}, {memory}");
         }
     }
 }
