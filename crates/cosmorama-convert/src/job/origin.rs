@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use xxhash_rust::xxh3::xxh3_64;
 
+use crate::colour::Light;
 use crate::input::Input;
 use crate::settings::{Conversion, GeometrySettings};
 use crate::source::Files;
@@ -25,20 +26,21 @@ pub(crate) struct Origin {
 const ENDS: u64 = 1 << 16;
 
 impl Origin {
-    pub(crate) fn of(settings: &Conversion) -> Self {
+    pub(crate) fn of(settings: &Conversion, light: &Light) -> Self {
         let GeometrySettings { filter, kernel, anti_ringing, .. } = &settings.geometry;
         let GeometrySettings { from, to, size, orientation, camera, in_path, blur, .. } = &settings.geometry;
-        let Conversion { transfer, in_transfer, out_transfer, primaries, in_primaries, ignore_profile, .. } = settings;
-        let Conversion { ocio, part, channels, layers, depth, background, missing, backdrop, .. } = settings;
-        let Conversion { opacity, quality, compression, strip, light, st_map, mips, remarks, .. } = settings;
+        let Conversion { in_transfer, in_primaries, ignore_profile, ocio, part, channels, layers, missing, .. } =
+            settings;
+        let Conversion { backdrop, opacity, quality, strip, light: lobes, st_map, mips, remarks, .. } = settings;
         let named = [from, to].into_iter().flatten().flat_map(|spec| spec.files.iter().cloned());
         Self {
             geometry: digest(&(from, to, size, orientation, camera, in_path, blur, st_map)),
-            filter: digest(&(filter, kernel, anti_ringing, light)),
+            filter: digest(&(filter, kernel, anti_ringing, lobes)),
+            // Not how samples are packed, which changes none.
             colour: digest(&(
-                (transfer, in_transfer, out_transfer, primaries, in_primaries, ignore_profile),
-                (ocio, part, channels, layers, depth, background, missing, backdrop),
-                (opacity, quality, compression, strip, mips, remarks),
+                (light.channels, light.depth, &light.transfer, light.background, &light.working),
+                (in_transfer, in_primaries, ignore_profile, ocio, part, channels, layers, missing),
+                (backdrop, opacity, quality, strip, mips, remarks),
             )),
             beside: named.chain(settings.geometry.pose_files()).collect(),
         }
@@ -90,20 +92,13 @@ mod tests {
     use super::*;
     use crate::source::InMemory;
 
-    fn conversion(to: &str) -> Conversion {
-        Conversion::new("in_#.png", "out_#.png").to(to.parse().unwrap())
-    }
-
     #[test]
     fn what_differs_is_named() {
-        let origin = |to: &str| Origin::of(&conversion(to));
-        let text = |origin: &Origin| {
-            format!("geometry {:08x}, filter {:08x}, colour {:08x}", origin.geometry, origin.filter, origin.colour)
-        };
-        let (one, other) = (text(&origin("fulldome")), text(&origin("fulldome:tilt=20")));
-        assert_eq!(differences(&one, &one), Vec::<String>::new());
-        assert_eq!(differences(&one, &other), ["geometry"]);
-        assert_eq!(differences("", &one), ["geometry", "filter", "colour"]);
+        let (one, other) = ("geometry 1, filter 2, colour 3, input 4", "geometry 1, filter 5, colour 3, input 6");
+        assert_eq!(differences(one, one), Vec::<String>::new());
+        assert_eq!(differences(one, other), ["filter", "input"]);
+        assert_eq!(differences("", one), ["geometry", "filter", "colour", "input"]);
+        assert_eq!((settings_of(one), settings_of("")), (Some("geometry 1, filter 2, colour 3"), None));
     }
 
     #[test]

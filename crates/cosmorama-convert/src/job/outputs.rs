@@ -100,7 +100,7 @@ impl Outputs {
             }
             frames.push(FrameOutputs { frame, files });
         }
-        let (mut remade, origin) = (Vec::new(), Origin::of(args));
+        let (mut remade, origin) = (Vec::new(), Origin::of(args, light));
         let all: usize = frames.iter().map(|frame| frame.files.len()).sum();
         if args.existing == Existing::Resume {
             let of = |frame| origin.of_frame(&*args.files, input, frame);

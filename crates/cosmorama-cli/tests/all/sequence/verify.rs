@@ -42,7 +42,7 @@ fn every_fault_is_named_by_its_frame() {
     let told = text(&bench.run(&["verify", "dome_#.png"]).stdout);
     assert_says(
         &told,
-        &["missing: 2\n", "it ends too early", "30x15 instead of 32x16): 4", "frames have faults: 2-4,6,7\n"],
+        &["missing: 2\n", "it ends too early", "of size 30x15 instead of 32x16: 4", "frames have faults: 2-4,6,7\n"],
     );
 }
 
