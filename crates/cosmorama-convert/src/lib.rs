@@ -18,12 +18,12 @@ mod packing;
 mod settings;
 mod source;
 mod target;
-mod verify;
 
 pub use colour::{InputTransfer, LayerRules, ThinAlpha, contents};
 pub use conversion::{
-    Checked, Explanation, ExplanationSettings, FilterReport, FilterTrial, FilterTrials, Observer, PathExplanation,
-    Quiet, Radiance, Report, Stop, Work, WorldHarmonics, WorldLight, WorldSuns, threads,
+    Checked, Explanation, ExplanationSettings, Fault, Faults, FilterReport, FilterTrial, FilterTrials, Observer,
+    PathExplanation, Quiet, Radiance, Report, SheetLayout, Stop, Verification, Verified, Work, WorldHarmonics,
+    WorldLight, WorldSuns, check_sheet, threads,
 };
 pub use detect::{Continuity, FacePixels, GivenFaces, Likely, damage_of, light_of, likely};
 pub use diagnostic::{Code, ConvertError, Diagnostic, Message, Outcome, Part, Remedy, Result, Setting, Severity};
@@ -38,4 +38,3 @@ pub use settings::{
 };
 pub use source::{Disk, Files, InMemory, MemoryBudget, ViewFiles, existing_frames, peak_bytes, probe, read};
 pub use target::{CHAIN_EDGE, Picture, is_cube_of_light};
-pub use verify::{Fault, Faults, SheetLayout, Verification, Verified, check_sheet};

@@ -7,6 +7,7 @@ mod filters;
 mod observer;
 mod report;
 mod run;
+mod verify;
 mod world_light;
 
 pub use check::Checked;
@@ -15,6 +16,7 @@ pub use explanation::{Explanation, ExplanationSettings, PathExplanation};
 pub use filters::{FilterReport, FilterTrial, FilterTrials};
 pub use observer::{Observer, Quiet, Stop, Work};
 pub use report::Report;
+pub use verify::{Fault, Faults, SheetLayout, Verification, Verified, check_sheet};
 pub use world_light::{Radiance, WorldHarmonics, WorldLight, WorldSuns};
 
 pub(crate) use advance::watched;

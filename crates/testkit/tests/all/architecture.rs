@@ -30,7 +30,7 @@ const ROOMS: [Room; 15] = [
 ];
 
 /// The rooms of `cosmorama-convert`, lowest floor first.
-const CONVERT_ROOMS: [Room; 12] = [
+const CONVERT_ROOMS: [Room; 11] = [
     ("diagnostic", &[]),
     ("source", &["diagnostic"]),
     ("packing", &["diagnostic"]),
@@ -42,7 +42,6 @@ const CONVERT_ROOMS: [Room; 12] = [
     ("job", &["diagnostic", "source", "settings", "detect", "input", "target", "colour"]),
     ("engine", &["diagnostic", "source", "packing", "settings", "detect", "input", "target", "colour", "job"]),
     ("conversion", &["diagnostic", "source", "settings", "input", "target", "colour", "job", "engine"]),
-    ("verify", &["diagnostic", "source", "colour", "job", "conversion"]),
 ];
 
 /// Crates whose rooms have floors.

@@ -23,7 +23,7 @@ impl SheetLayout {
 /// Lays small pictures out, row by row, on black.
 pub(super) fn of<'a>(pictures: impl Iterator<Item = &'a Image<Rgba>>) -> Image<Rgba> {
     let pictures: Vec<&Image<Rgba>> = pictures.collect();
-    let columns = (pictures.len() as f64).sqrt().ceil().max(1.0) as usize;
+    let columns = (1..).find(|columns| columns * columns >= pictures.len()).unwrap_or(1);
     let rows = pictures.len().div_ceil(columns);
     let width = pictures.iter().map(|picture| picture.width()).max().unwrap_or(1) + GAP;
     let height = pictures.iter().map(|picture| picture.height()).max().unwrap_or(1) + GAP;

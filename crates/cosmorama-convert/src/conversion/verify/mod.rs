@@ -12,7 +12,7 @@ use cosmorama_io::{FrameList, FramePattern, Limits};
 use cosmorama_spec::Size;
 use rayon::prelude::*;
 
-use crate::conversion::{Observer, Stop};
+use super::{Observer, Stop};
 use crate::diagnostic::{ConvertError, Result, usage};
 use crate::source::{Files, MemoryBudget, ViewFiles, existing_frames, probe};
 use frame::Frame;
@@ -86,8 +86,7 @@ impl Verification<'_> {
                 Err(usage(format!("{} has {{face}}; verify the sequence of each face by itself", self.pattern)))
             }
             ViewFiles::One(_) => Err(usage(format!(
-                "{} has no frame marker such as #### or %04d; write one where the frame number stands. 'info --check' tells \
-                 whether a single file is whole",
+                "{} has no frame marker such as #### or %04d; write one where the frame number stands",
                 self.pattern
             ))),
         }

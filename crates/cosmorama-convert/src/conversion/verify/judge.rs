@@ -93,8 +93,8 @@ fn of_picture(
     let of_settings = settings.zip(picture.settings.as_deref()).filter(|(usual, own)| usual != own);
     let is_frozen = !picture.is_black && before.is_some_and(|before| before.hash == picture.hash);
     let is_flash = before.zip(after).is_some_and(|(before, after)| {
-        let nearest = distance(picture, before).min(distance(picture, after));
-        nearest > FLASH.max(TIMES * distance(before, after))
+        let nearest = distance_squared(picture, before).min(distance_squared(picture, after));
+        nearest > (FLASH * FLASH).max(TIMES * TIMES * distance_squared(before, after))
     });
     [
         of_size.map(|expected| Fault::Size { found: picture.size, expected }),
@@ -109,11 +109,11 @@ fn of_picture(
     .collect()
 }
 
-/// Returns the root of the mean square of two pictures' difference, in parts of full scale.
-fn distance(one: &Picture, other: &Picture) -> f64 {
+/// Returns the mean square of two pictures' difference, in parts of full scale.
+fn distance_squared(one: &Picture, other: &Picture) -> f64 {
     let pairs = one.cells.as_flattened().iter().zip(other.cells.as_flattened());
     let squares: f64 = pairs.map(|(a, b)| ((f64::from(*a) - f64::from(*b)) / 255.0).powi(2)).sum();
-    (squares / (3 * one.cells.len()).max(1) as f64).sqrt()
+    squares / (3 * one.cells.len()).max(1) as f64
 }
 
 /// Returns the value that most have; of several, the least.
