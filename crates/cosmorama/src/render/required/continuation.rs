@@ -181,7 +181,7 @@ mod tests {
         }
     }
 
-    /// At the nadir the nearest point of the horizon is now on one side, now on the other.
+    /// Checks footprints at the nadir, too, where the nearest point of the horizon is now on one side, now on the other.
     #[test]
     fn footprints_lie_in_the_plane_that_touches_the_sphere() {
         let world = dome(90.0, 180.0);
