@@ -62,8 +62,11 @@ impl Remade {
         let mut all = Vec::new();
         for some in frames.chunks_mut(at_once) {
             let of = |frame: &mut FrameOutputs| Self::of(frame, targets, (light, layers, origin));
-            let remade: Vec<Vec<Self>> = some.par_iter_mut().map(of).collect::<Result<_>>()?;
-            all.extend(remade.into_iter().flatten());
+            // All of them, so that the first in order is told of, whichever thread is the fastest.
+            let remade: Vec<Result<Vec<Self>>> = some.par_iter_mut().map(of).collect();
+            for of_frame in remade {
+                all.extend(of_frame?);
+            }
         }
         Ok(all)
     }
