@@ -1,5 +1,7 @@
 //! The one act of the library: a world averaged over a footprint.
 
+use glam::DVec3;
+
 use crate::camera::Footprint;
 use crate::raster::Rgba;
 use crate::sphere::{Direction, DirectionJacobian};
@@ -104,34 +106,32 @@ fn directions(footprint: &Footprint) -> impl Iterator<Item = Direction> {
     (0..SAMPLES * SAMPLES).filter_map(move |k| footprint?.direction_at(place(k % SAMPLES), place(k / SAMPLES)))
 }
 
-/// Returns a flat footprint with the least breadth that counts.
-fn broadened(footprint: &Footprint) -> Footprint {
-    let Footprint { direction, jacobian: DirectionJacobian { dx, dy } } = *footprint;
-    let along = if dx.length_squared() >= dy.length_squared() { dx } else { dy }.normalize();
-    let length = (dx.length_squared() + dy.length_squared()).sqrt();
-    let jacobian = DirectionJacobian { dx: along * length, dy: direction.vector().cross(along) * (FLATTEST * length) };
-    Footprint { direction, jacobian }
-}
-
 /// Returns a footprint as filters take it: neither without width nor wider than [`WIDEST`]. `None` if it is not finite.
 pub(crate) fn bounded(footprint: &Footprint) -> Option<Footprint> {
     let Footprint { direction, jacobian: DirectionJacobian { dx, dy } } = *footprint;
-    let (x, y) = (dx.length_squared(), dy.length_squared());
-    let widest = x.max(y);
-    if (NARROWEST * NARROWEST..=WIDEST * WIDEST).contains(&widest) {
-        // Of one side, or of two along one line, nothing could be inverted.
-        let is_flat = dx.cross(dy).length() < FLATTEST * widest;
-        let whole = || if is_flat { broadened(footprint) } else { *footprint };
-        return (x + y < f64::INFINITY).then(whole);
-    }
     if !(dx.is_finite() && dy.is_finite() && direction.vector().is_finite()) {
         return None;
     }
-    if widest < NARROWEST * NARROWEST {
-        let (right, up) = direction.vector().any_orthonormal_pair();
-        let jacobian = DirectionJacobian { dx: right * NARROWEST, dy: up * NARROWEST };
-        return Some(Footprint { direction, jacobian });
+    let [dx, dy] = [dx, dy].map(|side| side.clamp_length_max(WIDEST));
+    let widest = dx.length_squared().max(dy.length_squared());
+    // Only what lies in the plane that touches the sphere spans an area. Of one side, or of two along one line, nothing could
+    // be inverted.
+    let area = dx.cross(dy).dot(direction.vector()).abs();
+    if widest >= NARROWEST * NARROWEST && area >= FLATTEST * widest {
+        return Some(Footprint { direction, jacobian: DirectionJacobian { dx, dy } });
     }
-    let held = |vector: glam::DVec3| vector.clamp_length_max(WIDEST);
-    Some(Footprint { direction, jacobian: DirectionJacobian { dx: held(dx), dy: held(dy) } })
+    Some(Footprint { direction, jacobian: broadened(direction, [dx, dy]) })
+}
+
+/// Returns the sides of a flat footprint with the least breadth that counts.
+fn broadened(direction: Direction, sides: [DVec3; 2]) -> DirectionJacobian {
+    let [x, y] = sides.map(|side| side.reject_from_normalized(direction.vector()));
+    let (longer, shorter) = if x.length_squared() >= y.length_squared() { (x, y) } else { (y, x) };
+    let length = longer.length().hypot(shorter.length());
+    if length < NARROWEST {
+        let (right, up) = direction.vector().any_orthonormal_pair();
+        return DirectionJacobian { dx: right * NARROWEST, dy: up * NARROWEST };
+    }
+    let along = longer.normalize();
+    DirectionJacobian { dx: along * length, dy: direction.vector().cross(along) * (FLATTEST * length) }
 }

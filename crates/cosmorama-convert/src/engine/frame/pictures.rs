@@ -1,7 +1,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
-use cosmorama::camera::{Covariance, View};
+use cosmorama::camera::View;
 use cosmorama::filter::Ewa;
 use cosmorama::raster::{FixedCodec, FixedLight, FramePool, Image, Pixel, Rgba};
 use cosmorama::render::{Continuation, Progress, Share, Stopped};
@@ -22,9 +22,6 @@ use crate::job::coverage::Coverage;
 use crate::job::{ConvertJob, FrameOutputs, QueueDepth};
 use crate::settings::{LightScale, LightSettings};
 use crate::target::{Sheet, Target};
-
-/// Variance of a footprint beyond the edge of a world, at least, as a part of the pixel's area.
-const LEAST_PART: f64 = 0.01;
 
 /// Makes the outputs of a job, frame by frame.
 pub(crate) struct Engine<'a> {
@@ -460,12 +457,7 @@ impl<'a> Engine<'a> {
                 let prepared = filter.of_texels(world, &worlds[place]);
                 posed.mask(job, index).fill_by(image, |i, j| {
                     let seen = target.view.screen_pixel(i, j).map(|screen| screen.footprint);
-                    // Stretched, it has no width across the edge: it gets a part of its own.
-                    let instead = seen.and_then(|pixel| {
-                        let found = edge.footprint(world, &pixel, beyond)?;
-                        let least = LEAST_PART * pixel.jacobian.solid_angle();
-                        Some(found.widened_by(Covariance::round(found.direction, least)))
-                    });
+                    let instead = seen.and_then(|pixel| edge.footprint(world, &pixel, beyond));
                     instead.map_or(Rgba::TRANSPARENT, |footprint| prepared.average(&footprint))
                 });
             }

@@ -69,15 +69,16 @@ impl Continuation {
     pub fn direction(&self, world: &World, direction: Direction, beyond: Beyond) -> Option<Direction> {
         let from = direction.vector();
         let edge = self.nearest(from)?;
+        let nearest = Direction::new(edge)?;
         if beyond == Beyond::Stretch {
-            return Direction::new(edge);
+            return Some(nearest);
         }
         // As far on the other side; less where the world ends there, too.
-        let angle = from.angle_between(edge);
+        let angle = direction.angle_to(nearest).radians();
         let ahead = (edge * edge.dot(from) - from).try_normalize()?;
         let at = |part: f64| Direction::new(edge * (part * angle).cos() + ahead * (part * angle).sin());
         let parts = [1.0, 0.5, 0.25, 0.125, 0.0];
-        parts.into_iter().filter_map(at).find(|found| world.owner(*found).is_some()).or_else(|| Direction::new(edge))
+        parts.into_iter().filter_map(at).find(|found| world.owner(*found).is_some()).or(Some(nearest))
     }
 
     /// Returns the footprint that stands for a pixel's beyond the edge.
@@ -86,8 +87,9 @@ impl Continuation {
         let direction = at(DVec3::ZERO)?;
         // By ways along great circles; at the points where the nearest edge is another, no wider than what a filter can bear.
         let difference = |step: DVec3| {
-            let (here, there) = (direction.vector(), at(step)?.vector());
-            let way = there.reject_from_normalized(here).normalize_or_zero() * here.angle_between(there);
+            let moved = at(step)?;
+            let ahead = moved.vector().reject_from_normalized(direction.vector()).normalize_or_zero();
+            let way = ahead * direction.angle_to(moved).radians();
             Some(way.clamp_length_max(WIDEST * step.length()))
         };
         let DirectionJacobian { dx, dy } = pixel.jacobian;
@@ -154,7 +156,7 @@ fn on_arc(direction: DVec3, a: DVec3, b: DVec3) -> Option<DVec3> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::camera::{CameraModel, CubeFaceCamera, FisheyeCamera, View};
+    use crate::camera::{CameraModel, CubeFaceCamera, EquirectCamera, FisheyeCamera, View};
     use crate::sphere::{Angle, Orientation};
 
     fn dome(pitch: f64, field: f64) -> World {
@@ -177,6 +179,25 @@ mod tests {
                 let there = Direction::from_longitude_latitude(Angle::from_degrees(yaw), Angle::from_degrees(expected));
                 let off = found.angle_to(there).degrees();
                 assert!(off < 1e-3, "{beyond:?} of {yaw}, {pitch}: off by {off}°");
+            }
+        }
+    }
+
+    /// Checks the nadir, too, where the nearest point of the horizon is now on one side, now on the other.
+    #[test]
+    fn footprints_touch_the_sphere() {
+        let world = dome(90.0, 180.0);
+        let edge = Continuation::of(&world).unwrap();
+        let target = CameraModel::Equirect(EquirectCamera::default()).view(64, 32).unwrap();
+        for (i, j) in (17..32).flat_map(|j| (0..64).map(move |i| (i, j))) {
+            let pixel = target.screen_pixel(i, j).unwrap().footprint;
+            for beyond in [Beyond::Mirror, Beyond::Stretch] {
+                let Footprint { direction, jacobian: DirectionJacobian { dx, dy } } =
+                    edge.footprint(&world, &pixel, beyond).unwrap();
+                for (side, of_pixel) in [(dx, pixel.jacobian.dx), (dy, pixel.jacobian.dy)] {
+                    let (radial, most) = (side.dot(direction.vector()).abs(), 1.000_001 * WIDEST * of_pixel.length());
+                    assert!(radial < 1e-12 && side.length() < most, "{beyond:?} at {i}, {j}: {side}");
+                }
             }
         }
     }

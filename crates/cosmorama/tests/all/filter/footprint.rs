@@ -130,6 +130,10 @@ fn odd_footprints() -> Vec<Footprint> {
                 tangent(up * 1e-12, at),
                 Footprint::new(at, right * 100.0, up * 1e9),
                 Footprint::new(at, right * 1e-9, up * 3.0),
+                tangent(up * 1e9, at),
+                // Sides that do not touch the sphere.
+                Footprint::new(at, at.vector() * 2.0, up * 0.01),
+                Footprint::new(at, at.vector() * 1e-7, at.vector() * -1e-3),
                 Footprint::from_covariance(at, Covariance::round(at, 1e6)),
             ]
         })
