@@ -5,9 +5,11 @@
 
 mod args;
 mod console;
+mod diagram;
 mod failure;
 mod interrupt;
 mod large_pages;
+mod parse;
 mod pipe;
 mod progress;
 mod report;

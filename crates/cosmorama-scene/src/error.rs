@@ -1,4 +1,5 @@
 use cosmorama::camera::CameraError;
+use cosmorama::filter::PrepareError;
 use cosmorama::lighting::LobeError;
 use cosmorama::world::LightError;
 use thiserror::Error;
@@ -31,6 +32,9 @@ pub enum SceneError {
     /// The light is not that of the world.
     #[error(transparent)]
     Light(#[from] LightError),
+    /// The filter of reflections cannot be prepared.
+    #[error(transparent)]
+    Filter(#[from] PrepareError),
     /// A lobe is out of range.
     #[error(transparent)]
     Lobe(#[from] LobeError),

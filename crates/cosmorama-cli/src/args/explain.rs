@@ -4,10 +4,9 @@ use clap::{ArgGroup, Args, ValueHint};
 use cosmorama_io::FrameList;
 use cosmorama_spec::Size;
 
-use super::convert::{LimitArgs, frame_list};
-use super::geometry::{CameraArgs, GeometryArgs, ShutterArgs};
-use super::parse::number::{not_negative, positive};
+use super::convert::{CameraArgs, GeometryArgs, LimitArgs, ShutterArgs, frame_list};
 use super::{SEE_MORE, projections, with_examples};
+use crate::parse::number::{not_negative, positive};
 
 /// Example commands in its help.
 pub(super) const EXAMPLES: [&str; 4] = [

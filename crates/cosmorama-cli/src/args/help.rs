@@ -6,7 +6,7 @@ use clap::{Args, ValueHint};
 use clap_complete::Shell;
 use cosmorama_spec::SpecKind;
 
-use super::parse::listed;
+use crate::parse::listed;
 use super::{verbs, with_examples};
 
 /// Example commands in the help of `help`.

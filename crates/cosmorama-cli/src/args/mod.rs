@@ -4,32 +4,36 @@ mod compare;
 pub(crate) mod convert;
 mod demo;
 mod explain;
-pub(crate) mod geometry;
+mod filters;
 mod help;
 mod info;
 pub(crate) mod light;
-mod parse;
-mod settings;
+mod papers;
 mod shade;
+mod verify;
 
 use clap::{Arg, Command, CommandFactory, Parser, Subcommand};
 
 use cosmorama_spec::SpecKind;
 
-pub(crate) use compare::{CompareArgs, FiltersArgs, Region};
+pub(crate) use compare::{CompareArgs, Region};
 pub(crate) use convert::{ConvertArgs, OutputArgs, builtins};
-pub(crate) use demo::{DemoArgs, FiguresArgs, PlatesArgs};
+pub(crate) use demo::DemoArgs;
 pub(crate) use explain::ExplainArgs;
+pub(crate) use filters::FiltersArgs;
 pub(crate) use help::{CompletionsArgs, HelpArgs, LISTS, ManArgs, SPEC_TOPIC};
-pub(crate) use info::{InfoArgs, VerifyArgs};
+pub(crate) use info::InfoArgs;
 pub(crate) use light::{
     BrdfArgs, DeployArgs, DiffuseArgs, HarmonicsArgs, LightArgs, LightVerb, MapArgs, Method, PresetName, SpecularArgs,
     SunArgs, TableArgs, Unit,
 };
-pub(crate) use parse::progress::ProgressStyle;
+pub(crate) use papers::{FiguresArgs, PaperArgs, PlatesArgs};
 pub(crate) use shade::{
     BackgroundName, CameraName, MaterialName, ObjectName, OcclusionName, Point, RefractName, ShadeArgs,
 };
+pub(crate) use verify::VerifyArgs;
+
+pub(crate) use crate::parse::progress::ProgressStyle;
 
 /// Example commands in the program's own help.
 const EXAMPLES: [&str; 3] = [
@@ -44,13 +48,13 @@ const VERBS: [(&str, &[&str]); 14] = [
     ("convert", &convert::EXAMPLES),
     ("light", &light::EXAMPLES),
     ("shade", &shade::EXAMPLES),
-    ("plates", &demo::PLATES_EXAMPLES),
+    ("plates", &papers::PLATES_EXAMPLES),
     ("info", &info::EXAMPLES),
     ("explain", &explain::EXAMPLES),
     ("compare", &compare::EXAMPLES),
-    ("verify", &info::VERIFY_EXAMPLES),
-    ("filters", &compare::FILTERS_EXAMPLES),
-    ("figures", &demo::FIGURES_EXAMPLES),
+    ("verify", &verify::EXAMPLES),
+    ("filters", &filters::EXAMPLES),
+    ("figures", &papers::FIGURES_EXAMPLES),
     ("completions", &help::COMPLETIONS_EXAMPLES),
     ("man", &help::MAN_EXAMPLES),
     ("help", &help::EXAMPLES),

@@ -28,6 +28,6 @@ impl Chart {
     /// Averages a picture under the pixel.
     pub(crate) fn average(&self, picture: &Texture) -> Rgba {
         let jacobian = DMat2::from_cols(self.dx, self.dy);
-        picture.average_of(&TextureFootprint { at: self.at, jacobian, nearing: self.nearing })
+        picture.average(&TextureFootprint { at: self.at, jacobian, nearing: self.nearing })
     }
 }

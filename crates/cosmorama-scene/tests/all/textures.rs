@@ -92,7 +92,7 @@ fn a_checkered_plane_is_that_of_many_samples_up_to_the_horizon() {
     for (i, j) in (0..HEIGHT).flat_map(|j| (0..WIDTH).step_by(APART).map(move |i| (i, j))) {
         let Some(footprint) = chart(&camera, PixelPoint::centre(i, j)) else { continue };
         let jacobian = footprint.jacobian;
-        let found = f64::from(texture.average_of(&footprint).0[0]);
+        let found = f64::from(texture.average(&footprint).0[0]);
         let error = (found - brute(&camera, &picture, (i, j), &jacobian)).abs();
         squares += error * error;
         count += 1;

@@ -26,9 +26,6 @@ impl KernelName {
 /// Name of the kernel whose shape and table may be chosen.
 const GAUSSIAN: &str = "gaussian";
 
-/// Most entries of a table.
-const LONGEST: usize = 1 << 16;
-
 /// Name of the kernel that keeps the light of suns.
 const LIGHT: &str = "light";
 
@@ -59,7 +56,7 @@ impl fmt::Display for KernelName {
         let Kernel { scale, floor, entries, .. } = kernel;
         let scaled = |other: Kernel| Kernel { scale, floor, entries, ..other };
         let of_name = |name: &&str| (*name == LIGHT) != anti_ringing && named(name).map(scaled) == Some(kernel);
-        let name = Self::NAMES.iter().map(|(name, _)| *name).find(of_name).unwrap_or("gaussian");
+        let name = Self::NAMES.iter().map(|(name, _)| *name).find(of_name).unwrap_or(GAUSSIAN);
         let usual = named(name).unwrap_or(kernel);
         let mut keys = Vec::new();
         if let (CrossSection::Gaussian { alpha, cutoff }, CrossSection::Gaussian { alpha: two, cutoff: one }) =
@@ -67,10 +64,9 @@ impl fmt::Display for KernelName {
         {
             keys.extend([("alpha", alpha, two), ("cutoff", cutoff, one)]);
         }
+        let entries = |kernel: Kernel| kernel.entries as f64;
         keys.extend([("scale", kernel.scale, usual.scale), ("floor", kernel.floor, usual.floor)]);
-        if kernel.entries != usual.entries {
-            keys.push(("table", kernel.entries as f64, usual.entries as f64));
-        }
+        keys.push(("table", entries(kernel), entries(usual)));
         f.write_str(name)?;
         let given = keys.into_iter().filter(|(_, value, usual)| value != usual);
         given.enumerate().try_for_each(|(index, (key, value, _))| {
@@ -84,7 +80,7 @@ fn named(name: &str) -> Option<Kernel> {
     let cross_section = match name {
         "adaptive" => return Some(Kernel::ADAPTIVE),
         LIGHT => return Some(Kernel::LIGHT),
-        "gaussian" => CrossSection::Gaussian { alpha: 2.0, cutoff: 1.0 },
+        GAUSSIAN => CrossSection::Gaussian { alpha: 2.0, cutoff: 1.0 },
         "mitchell" => CrossSection::MITCHELL,
         "robidoux" => CrossSection::ROBIDOUX,
         "robidoux-sharp" => CrossSection::ROBIDOUX_SHARP,
@@ -103,11 +99,10 @@ fn named(name: &str) -> Option<Kernel> {
 fn set_pair(kernel: &mut Kernel, name: &str, pair: &str) -> Result<(), String> {
     let (key, value) = pair.split_once('=').ok_or_else(|| format!("'{pair}' is no key=value"))?;
     if (name, key) == (GAUSSIAN, "table") {
-        kernel.entries = value
-            .parse()
-            .ok()
-            .filter(|entries| (2..=LONGEST).contains(entries))
-            .ok_or_else(|| format!("table={value}: expected a number of entries from 2 to {LONGEST}"))?;
+        kernel.entries =
+            value.parse().ok().filter(|entries| (2..=Kernel::MOST_ENTRIES).contains(entries)).ok_or_else(|| {
+                format!("table={value}: expected a number of entries from 2 to {}", Kernel::MOST_ENTRIES)
+            })?;
         return Ok(());
     }
     let value =

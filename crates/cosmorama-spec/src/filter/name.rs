@@ -25,7 +25,7 @@ impl fmt::Display for FilterName {
             FilterKind::Bilinear => f.write_str("bilinear"),
             FilterKind::Labels(LabelRule::Nearest) => f.write_str("labels:nearest"),
             FilterKind::Labels(LabelRule::Vote) => f.write_str("labels:vote"),
-            FilterKind::Classic(Classic::RepeatedIntegration { order }) if order != ORDER => {
+            FilterKind::Classic(Classic::RepeatedIntegration { order }) if order != Classic::USUAL_ORDER => {
                 write!(f, "repeated-integration:order={order}")
             }
             FilterKind::Classic(classic) => f.write_str(classic_name(classic)),
@@ -55,19 +55,17 @@ fn classic_name(classic: Classic) -> &'static str {
 /// Default number of sub-samples along a pixel's side.
 const SAMPLES: usize = 4;
 
-/// Default order of repeated integration.
-const ORDER: u32 = 2;
-
 impl FromStr for FilterName {
     type Err = WordError;
 
     fn from_str(text: &str) -> Result<Self, WordError> {
         let samples = |text: &str| text.parse().ok().filter(|samples| (1..=64).contains(samples));
         if let Some(("repeated-integration", order)) = text.split_once(":order=") {
-            return match order.parse() {
-                Ok(order @ 1..=4) => Ok(Self(FilterKind::Classic(Classic::RepeatedIntegration { order }))),
-                _ => Err(WordError::Parameter(format!("order={order}: expected a number from 1 to 4"))),
-            };
+            let (least, most) = (Classic::ORDERS.start(), Classic::ORDERS.end());
+            let known = order.parse().ok().filter(|order| Classic::ORDERS.contains(order));
+            return known.map(|order| Self(FilterKind::Classic(Classic::RepeatedIntegration { order }))).ok_or_else(
+                || WordError::Parameter(format!("order={order}: expected a number from {least} to {most}")),
+            );
         }
         match text.split_once(":samples=") {
             Some(("reference", count)) => match samples(count) {

@@ -75,14 +75,23 @@ const FILTER_WORDS: [(&str, &str); 15] = [
     ("samples", "reference"),
 ];
 
+/// Returns a filter's name with the key that it takes, if any.
+fn with_key(name: &str) -> &str {
+    match name {
+        "reference" => "reference[:samples=N]",
+        "repeated-integration" => "repeated-integration[:order=N]",
+        name => name,
+    }
+}
+
 /// Returns the error for a text that is not the name of a filter, with a suggestion.
 pub(super) fn no_filter(text: &str) -> WordError {
     let name = text.split(':').next().unwrap_or_default();
     let keys = &text[name.len()..];
     let (names, word) = (FILTERS.map(|(name, _)| name), text.to_owned());
     if names.contains(&name) {
-        let keys = "only reference takes a key, samples=N, as in reference:samples=8; others by a second word are \
-                    mipmap:levels=nearest, ewa:paper, ewa:integer and repeated-integration:order=N";
+        let keys = "reference takes samples=N, as in reference:samples=8, and repeated-integration order=N; others with a \
+                    second word are mipmap:levels=nearest, ewa:paper and ewa:integer";
         return WordError::Parameter(format!("'{text}': {keys}"));
     }
     if let Some(kernel) = meaning(&KERNEL_WORDS, name) {
@@ -95,7 +104,7 @@ pub(super) fn no_filter(text: &str) -> WordError {
             what: WordKind::Filter,
             word,
             meant: meant.map(Meant::name),
-            known: names.map(|name| if name == "reference" { "reference[:samples=N]" } else { name }).join(", "),
+            known: names.map(with_key).join(", "),
         },
     }
 }

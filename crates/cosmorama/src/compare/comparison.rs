@@ -43,18 +43,28 @@ pub struct EdgeFree {
 /// When the pictures or the mask differ in size, or no pixel is left to compare.
 pub fn compare(first: &Image<Rgba>, second: &Image<Rgba>, mask: &Mask) -> Result<Comparison, CompareError> {
     let pair = Pair::new(first, second, mask)?;
-    let nothing = CompareError::NothingCounts { size: pair.size() };
-    let linear = Difference::between(&pair, |light| light).ok_or(nothing.clone())?;
+    let nothing = || CompareError::NothingCounts { size: pair.size() };
+    let linear = Difference::between(&pair, |light| light).ok_or_else(nothing)?;
     Ok(Comparison {
         pixels: mask.count(),
         linear,
         own_peak: OwnPeak::of(&pair, &linear),
         srgb: Difference::between(&pair, |light| Transfer::Srgb.encode(light.clamp(0.0, 1.0), ColourChannel::Green))
-            .ok_or(nothing)?,
+            .ok_or_else(nothing)?,
         edge_free: EdgeFree::between(first, second, &edge_free(&pair)?)?,
         alpha: alpha_difference(&pair),
         registration: Registration::between(&pair),
     })
+}
+
+/// Returns the differences of linear light alone, as [`compare`] does.
+pub(crate) fn linear_difference(
+    first: &Image<Rgba>,
+    second: &Image<Rgba>,
+    mask: &Mask,
+) -> Result<Difference, CompareError> {
+    let pair = Pair::new(first, second, mask)?;
+    Difference::between(&pair, |light| light).ok_or_else(|| CompareError::NothingCounts { size: pair.size() })
 }
 
 impl EdgeFree {

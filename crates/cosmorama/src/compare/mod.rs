@@ -15,6 +15,7 @@ mod pair;
 mod quantile;
 mod registration;
 
+pub(crate) use comparison::linear_difference;
 pub use comparison::{Comparison, EdgeFree, compare};
 pub use difference::{Difference, Largest};
 pub use difference_image::difference_image;

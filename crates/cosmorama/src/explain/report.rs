@@ -72,7 +72,7 @@ pub struct Memory {
     pub texels: usize,
     /// Pixels of the target.
     pub pixels: usize,
-    /// Upper bound of a pyramid's levels, or of a table of sums; zero for filters that keep nothing.
+    /// Upper bound of what the filter keeps: a pyramid's levels, or tables of sums; zero for filters that keep nothing.
     pub levels: usize,
     /// Estimate of a sequence's geometry in floats; a single frame keeps none.
     pub plan: usize,

@@ -22,7 +22,7 @@ impl Display for Report {
         let (texels, pixels) = (Bytes(memory.texels), Bytes(memory.pixels));
         let levels = match memory.levels {
             0 => String::new(),
-            levels => format!(", smaller copies of the texels, or sums of them, {}", Bytes(levels)),
+            levels => format!(", the filter's own tables {}", Bytes(levels)),
         };
         let plan = match (Bytes(memory.plan), memory.fixed_plan) {
             (Bytes(0), _) => "no plan is kept".to_owned(),

@@ -133,7 +133,7 @@ pub struct Kernel {
     pub floor: f64,
     /// Whether the weights are corrected so that their centroid is exactly the pixel's centre.
     pub centred: bool,
-    /// Number of entries of the table over r² that holds the weights; between two entries they are interpolated. Cubics are
+    /// Number of entries of the table over r² that holds the weights, from 1 to [`Kernel::MOST_ENTRIES`]; between two entries they are interpolated. Cubics are
     /// computed instead where that is faster.
     pub entries: usize,
 }
@@ -154,6 +154,9 @@ impl Kernel {
     /// between two entries errs by less than 1e-4 of the peak. For the tent, whose tip is sharp in r², and at the edge of
     /// the box, it errs by 2 %.
     pub const ENTRIES: usize = 2048;
+
+    /// Greatest number of entries of a table.
+    pub const MOST_ENTRIES: usize = 1 << 16;
 
     /// Growth of the coarse share with s, before the knee and after it.
     pub(crate) const SLOPES: [f64; 2] =

@@ -26,4 +26,4 @@ pub use kernel::{CrossSection, Kernel};
 pub use lookup::{Bilinear, LabelRule, Labels, Point};
 pub use reference::Reference;
 pub use settings::{FilterKind, FilterSettings};
-pub use traits::{Filter, Prepared, SetupCost, WIDEST};
+pub use traits::{Filter, PrepareError, Prepared, SetupCost, WIDEST};

@@ -1,12 +1,12 @@
 //! Brute force: N×N sub-samples a pixel through the exact mapping, weighted by the kernel in screen space, in f64.
 
 use super::kernel::UNDER;
-use super::traits::{Filter, Prepared, SetupCost, bounded};
+use super::traits::{Filter, PrepareError, Prepared, SetupCost, bounded};
 use super::{Kernel, lookup};
 use crate::camera::{Footprint, PixelPoint, View};
 use crate::raster::Rgba;
 use crate::sphere::Direction;
-use crate::world::{Light, LightError, World};
+use crate::world::{Light, World};
 
 /// Brute force: N × N sub-samples a pixel, weighted by the kernel in screen space, in f64. It is slow, and the other
 /// filters are judged by it.
@@ -25,7 +25,7 @@ pub struct Reference {
 }
 
 impl Filter for Reference {
-    fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, LightError> {
+    fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, PrepareError> {
         light.check(world)?;
         Ok(Box::new(PreparedReference { world, light: light.texels(), filter: *self }))
     }

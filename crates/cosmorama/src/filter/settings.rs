@@ -1,7 +1,8 @@
 use super::{
-    Bilinear, Classic, Ewa, EwaPyramid, Filter, Kernel, LabelRule, Labels, Point, Prepared, Reference, SetupCost,
+    Bilinear, Classic, Ewa, EwaPyramid, Filter, Kernel, LabelRule, Labels, Point, PrepareError, Prepared, Reference,
+    SetupCost,
 };
-use crate::world::{Light, LightError, World};
+use crate::world::{Light, World};
 
 /// Method that makes a pixel of the texels under a footprint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -97,7 +98,7 @@ impl FilterSettings {
     ///
     /// # Errors
     /// When it would: see [`Classic::check`].
-    pub fn check(&self, world: &World) -> Result<(), LightError> {
+    pub fn check(&self, world: &World) -> Result<(), PrepareError> {
         if let FilterKind::Classic(classic) = self.kind { classic.check(world) } else { Ok(()) }
     }
 
@@ -124,7 +125,7 @@ impl FilterSettings {
 }
 
 impl Filter for FilterSettings {
-    fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, LightError> {
+    fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, PrepareError> {
         self.chosen().prepare(world, light)
     }
 

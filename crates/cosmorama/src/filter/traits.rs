@@ -1,11 +1,41 @@
 //! The one act of the library: a world averaged over a footprint.
 
 use glam::DVec3;
+use thiserror::Error;
 
+use super::classic::Classic;
 use crate::camera::Footprint;
 use crate::raster::Rgba;
 use crate::sphere::{Direction, DirectionJacobian};
 use crate::world::{Light, LightError, World};
+
+/// Reason why a filter cannot be prepared.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum PrepareError {
+    /// The light is not that of the world.
+    #[error(transparent)]
+    Light(#[from] LightError),
+    /// The order of repeated integration is out of range.
+    #[error("repeated integration has an order from {least} to {most}, not {found}", least = Classic::ORDERS.start(), most = Classic::ORDERS.end())]
+    NoSuchOrder {
+        /// Order that was given.
+        found: u32,
+    },
+    /// Repeated integration would keep too few bits of the light.
+    #[error(
+        "repeated integration of order {order} keeps light to one part in 2^{bits} of the brightest over a view of {}x{} texels, and at \
+         least 2^{} is asked for; choose a lower order",
+        size[0], size[1], Classic::LEAST_BITS
+    )]
+    LosesPrecision {
+        /// Order of integration.
+        order: u32,
+        /// Columns and rows of the view.
+        size: [usize; 2],
+        /// Bits that are kept of the brightest texel's light, times its solid angle.
+        bits: u32,
+    },
+}
 
 /// A rule that makes one pixel of the texels under a footprint.
 ///
@@ -38,7 +68,7 @@ pub trait Filter {
     ///
     /// # Errors
     /// If the light does not belong to the world.
-    fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, LightError>;
+    fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, PrepareError>;
 
     /// Returns what [`Filter::prepare`] costs.
     fn setup(&self, world: &World) -> SetupCost;
@@ -63,8 +93,9 @@ pub trait Prepared: Send + Sync {
     /// Parts that no view shows are left out, and the rest is averaged. [`Prepared::covered`] returns how much the rest
     /// is. The average is transparent where no view is near, and for a footprint that holds a NaN or an infinity.
     ///
-    /// A footprint without width is a point: filters interpolate there between the texels around it. A footprint wider
-    /// than [`WIDEST`] is taken as that wide. All filters see only the half of the world around the footprint's
+    /// A footprint without width is a point: filters interpolate there between the texels around it. A flat one, whose
+    /// sides lie along one line, is broadened to a ten-thousandth of its length. A footprint wider than [`WIDEST`] is taken
+    /// as that wide. All filters see only the half of the world around the footprint's
     /// direction. A footprint as wide as that half gives nearly its mean.
     fn average(&self, footprint: &Footprint) -> Rgba;
 
@@ -92,8 +123,8 @@ pub const WIDEST: f64 = std::f64::consts::PI;
 /// apart.
 const NARROWEST: f64 = 1e-8;
 
-/// Breadth of a footprint, as a part of its length, below which it is flat. The squares of both must fit into the digits
-/// of a number.
+/// Breadth of a footprint, as a part of its length, below which it is flat. So the product of its matrix with itself can be
+/// inverted in double precision.
 const FLATTEST: f64 = 1e-4;
 
 /// Number of directions along a side of a footprint's parallelogram.
@@ -127,11 +158,10 @@ pub(crate) fn bounded(footprint: &Footprint) -> Option<Footprint> {
 fn broadened(direction: Direction, sides: [DVec3; 2]) -> DirectionJacobian {
     let [x, y] = sides.map(|side| side.reject_from_normalized(direction.vector()));
     let (longer, shorter) = if x.length_squared() >= y.length_squared() { (x, y) } else { (y, x) };
-    let length = longer.length().hypot(shorter.length());
-    if length < NARROWEST {
+    if longer.length() < NARROWEST {
         let (right, up) = direction.vector().any_orthonormal_pair();
         return DirectionJacobian { dx: right * NARROWEST, dy: up * NARROWEST };
     }
-    let along = longer.normalize();
+    let (along, length) = (longer.normalize(), longer.length().hypot(shorter.length()));
     DirectionJacobian { dx: along * length, dy: direction.vector().cross(along) * (FLATTEST * length) }
 }

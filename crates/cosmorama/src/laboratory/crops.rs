@@ -23,9 +23,11 @@ pub fn busiest(picture: &Image<Rgba>, counts: impl Fn(usize, usize) -> bool, mos
     chosen
 }
 
-/// Returns the sum of squared differences between neighbours.
+/// Returns the sum of squared differences between neighbours, in rows and in columns.
 fn detail(picture: &Image<Rgba>, (left, top): Crop) -> f64 {
     let difference = |a: Rgba, b: Rgba| (0..3).map(|c| f64::from(a.0[c] - b.0[c]).powi(2)).sum::<f64>();
-    let rows = (top..top + CROP).map(|j| &picture.row(j)[left..left + CROP]);
-    rows.map(|row| row.windows(2).map(|pair| difference(pair[0], pair[1])).sum::<f64>()).sum()
+    let row = |j: usize| &picture.row(j)[left..left + CROP];
+    let along = |j: usize| row(j).windows(2).map(|pair| difference(pair[0], pair[1])).sum::<f64>();
+    let below = |j: usize| row(j).iter().zip(row(j + 1)).map(|(a, b)| difference(*a, *b)).sum::<f64>();
+    (top..top + CROP).map(along).sum::<f64>() + (top..top + CROP - 1).map(below).sum::<f64>()
 }

@@ -24,7 +24,7 @@ fn shape(probes: &[Probe], image: &Image<Rgba>) -> Vec<(f64, f64)> {
     let mut bins = vec![(0.0, 0usize); count];
     for probe in probes.iter().filter(|probe| probe.from_edge.abs() < REACH) {
         let blue = f64::from(image.pixels()[probe.pixel].0[2]);
-        let bin = &mut bins[((probe.from_edge + REACH) * BINS) as usize];
+        let bin = &mut bins[(((probe.from_edge + REACH) * BINS) as usize).min(count - 1)];
         *bin = (bin.0 + if probe.rises { blue } else { 1.0 - blue }, bin.1 + 1);
     }
     let full = bins.into_iter().enumerate().filter(|(_, (_, pixels))| *pixels > 0);

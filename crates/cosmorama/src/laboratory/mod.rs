@@ -12,7 +12,7 @@ mod sheet;
 mod zone_plate;
 
 use crate::camera::{Footprint, View};
-use crate::compare::{CompareError, Mask, compare};
+use crate::compare::{CompareError, Mask, linear_difference};
 use crate::filter::{FilterSettings, Prepared};
 use crate::raster::{Image, Rgba};
 use crate::render::{Progress, Resampler, Stopped};
@@ -39,10 +39,11 @@ pub struct Laboratory<'a> {
 /// Response of a filter to the test pattern.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Response {
-    /// Energy of gratings of half a cycle a pixel to one that is left, of which a picture can hold none, in decibels below
-    /// that of the gratings. `None` where the texels hold no such gratings: a pixel must have more than one texel each way.
+    /// Energy of gratings of half a cycle a pixel to one that is left, of which a picture can hold none, in decibels
+    /// relative to the gratings' own: 0 is all of it. `None` where the texels hold no such gratings: a pixel must have more than one texel each way.
     pub aliasing: Option<f64>,
-    /// Width in pixels over which an edge goes from 10 % to 90 %. `None` where the picture is too small for edges.
+    /// Width in pixels over which an edge goes from 10 % to 90 %. `None` where the picture is too small for edges, or an
+    /// edge takes over six pixels to either side.
     pub edge_width: Option<f64>,
 }
 
@@ -54,6 +55,11 @@ impl<'a> Laboratory<'a> {
         let pattern = Pattern::over(target);
         let probes = pattern.probes(world, &whole);
         Self { world, light, target, whole, pattern: pattern.light(world), probes }
+    }
+
+    /// Returns the bytes that a conversion takes beside the world, its light and the pictures.
+    pub fn bytes(world: &World, target: &View) -> usize {
+        world.texel_count() * size_of::<Rgba>() + target.width() * target.height() * size_of::<Probe>()
     }
 
     /// Makes the picture by a filter.
@@ -103,7 +109,7 @@ impl<'a> Laboratory<'a> {
     /// # Errors
     /// When a picture has another size than the target, or no pixel is whole.
     pub fn psnr(&self, picture: &Image<Rgba>, to: &Image<Rgba>) -> Result<f64, CompareError> {
-        Ok(compare(picture, to, &self.whole)?.linear.psnr)
+        Ok(linear_difference(picture, to, &self.whole)?.psnr)
     }
 
     /// Returns whether a pixel is whole.

@@ -15,7 +15,8 @@ use crate::raster::{FixedCodec, FixedLight, Image, Rgba};
 impl Resampler<'_> {
     /// Renders one frame without storing the geometry. `texels` is the world's buffer of light.
     ///
-    /// A [`Plan`] makes the same pixels.
+    /// A [`Plan`] makes the same pixels. Whether the filter loses precision over the world, [`FilterSettings::check`](crate::filter::FilterSettings::check) tells
+    /// beforehand.
     ///
     /// Pixels are premultiplied by their coverage: transparent outside the lens. A pixel just beyond the world's last
     /// texel takes what its kernel still reaches. [`super::ScreenMask`] tells which pixels see nothing.
@@ -107,12 +108,7 @@ impl Resampler<'_> {
     pub fn filter_bytes(&self) -> usize {
         match self.filter.kind {
             FilterKind::EwaPyramid => pyramid::bytes(self),
-            FilterKind::Classic(classic) => classic.setup(self.world).bytes,
-            FilterKind::Ewa
-            | FilterKind::Point
-            | FilterKind::Bilinear
-            | FilterKind::Labels(_)
-            | FilterKind::Reference { .. } => 0,
+            _ => self.filter.setup(self.world).bytes,
         }
     }
 }

@@ -5,7 +5,7 @@ use cosmorama::lighting::{BrdfModel, LARGEST_BRDF_TABLE};
 use cosmorama_spec::DepthName;
 
 use crate::args::convert::{OutputArgs, threads};
-use crate::args::parse::listed;
+use crate::parse::listed;
 use crate::args::with_examples;
 
 /// Commands that the help of `light brdf` shows.

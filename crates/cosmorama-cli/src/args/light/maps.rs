@@ -1,17 +1,15 @@
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueEnum, ValueHint};
 use cosmorama::raster::Depth;
-use cosmorama::sphere::{Angle, Orientation};
 use cosmorama_convert::{Conversion, GeometrySettings, LightScale};
 use cosmorama_spec::{DepthName, Missing, Size, Spec, TransferName};
 
 use super::lobe::LobeName;
 use super::roughness::RoughnessMapName;
-use crate::args::convert::{FilesArgs, RunArgs};
-use crate::args::parse::listed;
-use crate::args::parse::number::degrees;
-use crate::args::settings::existing;
+use crate::args::convert::{FilesArgs, RunArgs, TurnArgs, existing};
 use crate::args::with_examples;
+use crate::parse::listed::{self, Listed};
+use crate::parse::number::every;
 
 /// Example commands in the help of `light diffuse`.
 pub(super) const DIFFUSE_EXAMPLES: [&str; 5] = [
@@ -63,7 +61,7 @@ pub(crate) struct SpecularArgs {
     ///
     /// ggx weighs each direction by D(h)·(n·l), charlie too, with the distribution of cloth; phong by cosᴺ θ, blinn by
     /// cosᴺ(θ/2)·cos θ.
-    #[arg(long, value_name = "LOBE", default_value = "ggx", value_parser = listed::lobe(), hide_possible_values = true, hide_default_value = true, help_heading = "Light")]
+    #[arg(long, value_name = "LOBE", default_value = "ggx", value_parser = Listed::<LobeName>::new(LobeName::NAMES), hide_possible_values = true, hide_default_value = true, help_heading = "Light")]
     pub(crate) lobe: LobeName,
     /// Roughness α of ggx and charlie, 0.001 to 1, or 0 for a mirror; several, as in 0,0.1,0.4,1, make a chain
     ///
@@ -95,10 +93,6 @@ pub(crate) enum Method {
     Lobes,
     /// Means of two by two pixels of the level before (Greene 1986, section 7)
     Mipmap,
-}
-
-fn every(text: &str) -> Result<usize, String> {
-    text.parse().ok().filter(|frames| *frames > 0).ok_or_else(|| "expected a number of frames, 1 at least".to_owned())
 }
 
 fn scale(text: &str) -> Result<LightScale, String> {
@@ -145,15 +139,8 @@ pub(crate) struct MapArgs {
     /// The map's pixels: WxH, or the width [default: 64; faces 32]
     #[arg(long, value_name = "WxH|N", allow_hyphen_values = true, help_heading = "Geometry")]
     pub(crate) size: Option<Size>,
-    /// Turn the map to the right, in degrees
-    #[arg(long, value_name = "D", default_value_t = 0.0, value_parser = degrees, allow_negative_numbers = true, hide_short_help = true, help_heading = "Geometry")]
-    pub(crate) yaw: f64,
-    /// Turn the map up
-    #[arg(long, value_name = "D", default_value_t = 0.0, value_parser = degrees, allow_negative_numbers = true, hide_short_help = true, help_heading = "Geometry")]
-    pub(crate) pitch: f64,
-    /// Turn the map's camera clockwise
-    #[arg(long, value_name = "D", default_value_t = 0.0, value_parser = degrees, allow_negative_numbers = true, hide_short_help = true, help_heading = "Geometry")]
-    pub(crate) roll: f64,
+    #[command(flatten)]
+    pub(crate) turn: TurnArgs,
     /// Sum every texel for every pixel
     ///
     /// The default takes together texels over which the lobe hardly bends; docs/light.md says how near it is.
@@ -181,8 +168,6 @@ pub(crate) struct MapArgs {
 
 impl From<MapArgs> for Conversion {
     fn from(args: MapArgs) -> Self {
-        let [yaw, pitch, roll] = [args.yaw, args.pitch, args.roll].map(Angle::from_degrees);
-        let orientation = Orientation::from_yaw_pitch_roll(yaw, pitch, roll);
         Self {
             input: args.input,
             output: args.output,
@@ -190,7 +175,7 @@ impl From<MapArgs> for Conversion {
                 from: args.from,
                 to: args.to,
                 size: args.size,
-                orientation,
+                orientation: args.turn.into(),
                 ..GeometrySettings::default()
             },
             transfer: args.transfer,

@@ -8,8 +8,8 @@ use cosmorama_convert::Conversion;
 use cosmorama_spec::{DepthName, Missing};
 
 use super::world::WorldArgs;
-use crate::args::parse::listed;
-use crate::args::parse::number::degrees;
+use crate::parse::listed;
+use crate::parse::number::degrees;
 use crate::args::with_examples;
 
 /// Commands that the help of `light table` shows.

@@ -4,7 +4,7 @@ use cosmorama_io::FrameList;
 use cosmorama_spec::{Missing, Spec, TransferName};
 
 use crate::args::convert::{LimitArgs, OutputArgs, frame_list};
-use crate::args::parse::listed;
+use crate::parse::listed;
 
 /// Description of a world whose light is wanted, and of what becomes of it.
 #[derive(Clone, Debug, Args)]

@@ -12,9 +12,9 @@ use cosmorama_io::FrameList;
 use cosmorama_spec::{DepthName, FilterName, KernelName, Missing, Size, Spec, TransferName};
 
 use super::convert::{LimitArgs, OutputArgs, frame_list};
-use super::parse::listed;
-use super::parse::number::{crease, distance, factor};
 use super::with_examples;
+use crate::parse::listed::{self, Listed};
+use crate::parse::number::{crease, distance, factor};
 
 pub(crate) use material::MaterialName;
 pub(crate) use names::{
@@ -51,7 +51,7 @@ pub(crate) struct ShadeArgs {
     ///
     /// Spheres have a radius of 1. spheres:N is a row from rough to smooth; plate4 is the paper's: matt, mixed, mirror.
     /// Models stand where their files place them.
-    #[arg(long, value_name = "NAME", default_value = "sphere", value_parser = listed::object(), hide_possible_values = true, hide_default_value = true, help_heading = "Things")]
+    #[arg(long, value_name = "NAME", default_value = "sphere", value_parser = Listed::<ObjectName>::new(ObjectName::NAMES), hide_possible_values = true, hide_default_value = true, help_heading = "Things")]
     pub(crate) object: ObjectName,
     /// Make a model's normals smooth over edges up to this angle; 0: flat [default: the file's own, or 40]
     #[arg(long, value_name = "DEGREES", value_parser = crease, allow_negative_numbers = true, hide_short_help = true, help_heading = "Things")]
@@ -70,7 +70,7 @@ pub(crate) struct ShadeArgs {
     ///
     /// metallic=1,roughness=0.3,color=#ffcc66 is glTF's metallic-roughness; emissive, ior and specular are others of its
     /// keys. Roughness is the root of α. Colours are names, #rrggbb, or linear light as in 1:0.8:0.3. own is what a model's file says.
-    #[arg(long, value_name = "NAME", default_value = "mirror", value_parser = listed::material(), hide_possible_values = true, hide_default_value = true, help_heading = "Things")]
+    #[arg(long, value_name = "NAME", default_value = "mirror", value_parser = Listed::<MaterialName>::new(MaterialName::NAMES), hide_possible_values = true, hide_default_value = true, help_heading = "Things")]
     pub(crate) material: MaterialName,
     /// A picture on what is matt or metallic-roughness: its colour
     ///
@@ -182,10 +182,10 @@ pub(crate) struct ShadeArgs {
     /// Which frame of several
     #[arg(long, value_name = "N", value_parser = frame_list, allow_hyphen_values = true, hide_short_help = true, help_heading = "World")]
     pub(crate) frames: Option<FrameList>,
-    /// perspective:fov=40 (default), orthographic:height=H, gltf[:NAME] or any SPEC
+    /// perspective:fov=40 (default), orthographic:height=H, `gltf[:NAME]` or any SPEC
     ///
     /// gltf is the first camera of a model's file, gltf:NAME one by its name.
-    #[arg(long, value_name = "CAMERA", value_parser = listed::camera(), hide_possible_values = true, help_heading = "Picture")]
+    #[arg(long, value_name = "CAMERA", value_parser = names::camera(), hide_possible_values = true, help_heading = "Picture")]
     pub(crate) camera: Option<CameraName>,
     /// Place of the eye [default: before the things, on +Z]
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, help_heading = "Picture")]

@@ -6,7 +6,9 @@ use cosmorama::lighting::{ColourTable, TableAngle};
 use cosmorama::raster::Rgba;
 use cosmorama::sphere::{Angle, Direction, Orientation};
 use cosmorama_scene::{Highlight, MODEL_EXTENSIONS, Walls};
-use cosmorama_spec::{Colour, Spec, colour_table_of_stops};
+use cosmorama_spec::{Colour, Spec, SpecKind, colour_table_of_stops};
+
+use crate::parse::listed::Listed;
 
 /// Name of what stands under the world.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -48,6 +50,13 @@ impl FromStr for ObjectName {
 fn is_model(text: &str) -> bool {
     let text = text.to_lowercase();
     MODEL_EXTENSIONS.iter().any(|extension| text.ends_with(extension))
+}
+
+/// Reads a camera.
+pub(super) fn camera() -> Listed<CameraName> {
+    let parallel = ("orthographic", "parallel rays; orthographic:height=H");
+    let own = ("gltf", "a model's own camera, the first; gltf:NAME");
+    Listed::new(SpecKind::all().map(|kind| (kind.name(), kind.about())).chain([parallel, own]))
 }
 
 /// Name of a camera: parallel rays, a projection of the library, or one of a model's.

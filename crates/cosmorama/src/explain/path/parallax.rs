@@ -1,10 +1,6 @@
 use std::fmt::{Display, Formatter};
 
-use glam::{DMat2, DVec2, DVec3};
-
-use crate::camera::View;
-use crate::filter::semi_axes;
-use crate::sphere::DirectionJacobian;
+use crate::camera::{Footprint, View};
 
 /// Error of a distant world for a camera that does not only turn: what is near would shift before what is far.
 ///
@@ -54,12 +50,9 @@ fn finest_pixels_per_radian(view: &View) -> f64 {
     let at = |size: usize, k: usize| (size.saturating_sub(1) * k / (POINTS - 1)).min(size.saturating_sub(1));
     let points = (0..POINTS * POINTS).map(|k| (at(view.width(), k % POINTS), at(view.height(), k / POINTS)));
     let footprints = points.filter_map(|(i, j)| view.centre_footprint(i, j));
-    let smallest = footprints.map(|footprint| {
-        let DirectionJacobian { dx, dy } = footprint.jacobian;
-        let (right, up) = footprint.direction.vector().any_orthonormal_pair();
-        let within = |tangent: DVec3| DVec2::new(tangent.dot(right), tangent.dot(up));
-        semi_axes(DMat2::from_cols(within(dx), within(dy)))[1]
-    });
+    // Of a footprint that is made of a covariance, the second side is the shorter semi-axis.
+    let smallest = footprints
+        .map(|footprint| Footprint::from_covariance(footprint.direction, footprint.covariance()).jacobian.dy.length());
     smallest.filter(|side| *side > 0.0).map(f64::recip).fold(0.0, f64::max)
 }
 

@@ -6,8 +6,8 @@ use crate::filter::Ellipse;
 /// differences and the weights are integers (Greene & Heckbert 1986).
 ///
 /// Places are rounded to 2⁻¹⁶ texel, and Q has as many bits of fraction as its greatest value in the box leaves of 62.
-/// A box in which
-/// that leaves none is not averaged but looked up. The sums of light stay floats, since light has any range.
+/// Where none is left, the view's texels are not averaged, and the middle is looked up. The sums of light stay floats, since
+/// light has any range.
 pub(super) struct EwaInteger(Vec<i32>);
 
 /// Bits of a fraction of a texel.

@@ -16,13 +16,15 @@ mod two_pass;
 
 pub use prefiltered::MipChoice;
 
+use std::ops::RangeInclusive;
+
 use super::Kernel;
 use super::ewa_pyramid::Levels;
-use super::traits::{Filter, Prepared, SetupCost};
+use super::traits::{Filter, PrepareError, Prepared, SetupCost};
 use crate::raster::Rgba;
-use crate::world::{Light, LightError, World};
+use crate::world::{Light, World};
 use prefiltered::{PreparedIntegrals, PreparedMipMap, PreparedSummedArea, bits_of};
-use region::PreparedRegion;
+use region::{Weighed, Weighing};
 use screen_kernel::ScreenKernel;
 
 /// A filter of the literature that EWA is compared with.
@@ -35,7 +37,7 @@ pub enum Classic {
     /// Smooth splines over an upright box, by differences in a picture that is integrated `order` times (Perlin; Heckbert
     /// 1986).
     RepeatedIntegration {
-        /// Number of boxes that are applied: 1 is a rectangle, 2 a pyramid, 3 nearly a Gaussian.
+        /// Number of boxes that are applied, of [`Classic::ORDERS`]: 1 is a rectangle, 2 a pyramid, 3 nearly a Gaussian.
         order: u32,
     },
     /// Exact areas under the pixel's parallelogram, evenly weighted (Catmull 1974).
@@ -55,12 +57,18 @@ pub enum Classic {
 }
 
 impl Classic {
-    /// All filters, in the order of the paper's table; repeated integration is of order 2.
+    /// Orders of repeated integration.
+    pub const ORDERS: RangeInclusive<u32> = 1..=4;
+
+    /// Usual order of repeated integration.
+    pub const USUAL_ORDER: u32 = 2;
+
+    /// All filters, in the order of the paper's table; repeated integration is of its usual order.
     pub const ALL: [Self; 11] = [
         Self::MipMap(MipChoice::Nearest),
         Self::MipMap(MipChoice::Trilinear),
         Self::SummedArea,
-        Self::RepeatedIntegration { order: 2 },
+        Self::RepeatedIntegration { order: Self::USUAL_ORDER },
         Self::Catmull,
         Self::BlinnNewell,
         Self::FeibushLevoyCook,
@@ -70,18 +78,21 @@ impl Classic {
         Self::EwaInteger,
     ];
 
-    /// Bits that each texel's light must keep.
-    const LEAST_BITS: u32 = 24;
+    /// Bits that must be kept of the brightest texel's light, times its solid angle.
+    pub(crate) const LEAST_BITS: u32 = 24;
 
     /// Checks that the filter loses no precision over a world.
     ///
     /// # Errors
-    /// For repeated integration over a view that is too large for its order.
-    pub fn check(self, world: &World) -> Result<(), LightError> {
+    /// For repeated integration of an order that there is not, or over a view that is too large for its order.
+    pub fn check(self, world: &World) -> Result<(), PrepareError> {
         let Self::RepeatedIntegration { order } = self else { return Ok(()) };
+        if !Self::ORDERS.contains(&order) {
+            return Err(PrepareError::NoSuchOrder { found: order });
+        }
         let lost = world.sources().iter().find(|source| bits_of(source, order) < Self::LEAST_BITS);
         lost.map_or(Ok(()), |source| {
-            Err(LightError::LosesPrecision {
+            Err(PrepareError::LosesPrecision {
                 order,
                 size: [source.columns(), source.view.height()],
                 bits: bits_of(source, order),
@@ -104,7 +115,7 @@ impl Classic {
             Self::Catmull => over(world, light, catmull::Catmull),
             Self::BlinnNewell => over(world, light, blinn_newell::BlinnNewell),
             Self::FeibushLevoyCook => over(world, light, feibush_levoy_cook::FeibushLevoyCook(kernel())),
-            Self::Gangnet => Box::new(gangnet::PreparedGangnet { world, light, kernel: kernel() }),
+            Self::Gangnet => over(world, light, gangnet::Gangnet(kernel())),
             Self::EwaPaper => over(world, light, ewa_paper::EwaPaper(kernel())),
             Self::EwaInteger => over(world, light, ewa_integer::EwaInteger::new(&kernel())),
         }
@@ -112,7 +123,7 @@ impl Classic {
 }
 
 impl Filter for Classic {
-    fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, LightError> {
+    fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, PrepareError> {
         light.check(world)?;
         self.check(world)?;
         Ok(self.of_texels(world, light.texels()))
@@ -135,6 +146,6 @@ impl Filter for Classic {
     }
 }
 
-fn over<'w, R: region::Region + 'w>(world: &'w World, light: &'w [Rgba], region: R) -> Box<dyn Prepared + 'w> {
-    Box::new(PreparedRegion { world, light, region })
+fn over<'w, W: Weighing + 'w>(world: &'w World, light: &'w [Rgba], weighing: W) -> Box<dyn Prepared + 'w> {
+    Box::new(Weighed { world, light, weighing })
 }

@@ -1,8 +1,8 @@
 use glam::{DMat2, DVec2};
 
 use crate::camera::{Footprint, PixelPoint};
+use crate::filter::gather::ellipse::widened;
 use crate::filter::reference::look;
-use crate::filter::semi_axes;
 use crate::filter::traits::{Prepared, bounded};
 use crate::raster::Rgba;
 use crate::world::{Source, World};
@@ -46,7 +46,7 @@ impl<'a> Seen<'a> {
 
     /// Returns the derivatives with short ones raised, so that a footprint has at least the size of a texel each way.
     pub(super) fn widened(&self) -> DMat2 {
-        widened(self.jacobian)
+        widened(self.jacobian, 1.0)
     }
 
     /// Returns the texels whose squares reach into a box around the footprint's middle, as far as the view has some.
@@ -73,37 +73,17 @@ impl<'a> Seen<'a> {
     }
 }
 
-/// Raises a matrix's singular values to one: J = U S Vᵀ becomes U max(S, 1) Vᵀ.
-fn widened(jacobian: DMat2) -> DMat2 {
-    let [major, minor] = semi_axes(jacobian);
-    if minor >= 1.0 {
-        return jacobian;
-    }
-    // JᵀJ = V S² Vᵀ; its first eigenvector is the screen's direction that maps to the major axis.
-    let square = jacobian.transpose() * jacobian;
-    let angle = 0.5 * (2.0 * square.x_axis.y).atan2(square.x_axis.x - square.y_axis.y);
-    let (sin, cos) = angle.sin_cos();
-    let (first, second) = (DVec2::new(cos, sin), DVec2::new(-sin, cos));
-    let long = (jacobian * first).try_normalize().unwrap_or(first);
-    let turn = if jacobian.determinant() < 0.0 { -1.0 } else { 1.0 };
-    let short = long.perp() * turn;
-    let screen = DMat2::from_cols(first, second).transpose();
-    DMat2::from_cols(long * major.max(1.0), short * minor.max(1.0)) * screen
-}
-
-/// A region over a world's light.
-pub(super) struct PreparedRegion<'w, R> {
-    pub(super) world: &'w World,
-    pub(super) light: &'w [Rgba],
-    pub(super) region: R,
-}
-
-impl<R: Region> PreparedRegion<'_, R> {
+/// A rule that weighs the texels of a world under a footprint.
+pub(super) trait Weighing: Send + Sync {
     /// Calls `visit` with each texel that counts, by its place in the world's light, and with its weight.
-    fn for_each_texel(&self, footprint: &Footprint, mut visit: impl FnMut(usize, f64)) {
-        for source in self.world.sources() {
+    fn for_each_texel(&self, world: &World, footprint: &Footprint, visit: impl FnMut(usize, f64));
+}
+
+impl<R: Region> Weighing for R {
+    fn for_each_texel(&self, world: &World, footprint: &Footprint, mut visit: impl FnMut(usize, f64)) {
+        for source in world.sources() {
             let Some(seen) = reached(source, footprint) else { continue };
-            self.region.texels(&seen, |[i, j], weight| {
+            self.texels(&seen, |[i, j], weight| {
                 let Some(column) = source.column(i) else { return };
                 let texel = j as usize * source.view.width() + column as usize;
                 // Views that show one direction share it, so that nothing counts twice where they meet.
@@ -116,23 +96,32 @@ impl<R: Region> PreparedRegion<'_, R> {
     }
 }
 
-impl<R: Region> Prepared for PreparedRegion<'_, R> {
+/// Texels of a world's light, to be weighed.
+pub(super) struct Weighed<'w, W> {
+    pub(super) world: &'w World,
+    pub(super) light: &'w [Rgba],
+    pub(super) weighing: W,
+}
+
+impl<W: Weighing> Prepared for Weighed<'_, W> {
     fn world(&self) -> &World {
         self.world
     }
 
     fn reads(&self, footprint: &Footprint) -> usize {
+        let Some(footprint) = bounded(footprint) else { return 0 };
         let mut count = 0;
-        let footprint = bounded(footprint);
-        footprint.iter().for_each(|footprint| self.for_each_texel(footprint, |_, _| count += 1));
+        self.weighing.for_each_texel(self.world, &footprint, |_, _| count += 1);
         count
     }
 
     fn average(&self, footprint: &Footprint) -> Rgba {
         let Some(footprint) = bounded(footprint) else { return Rgba::TRANSPARENT };
         let (mut sum, mut weights) = ([0f64; 4], 0f64);
-        self.for_each_texel(&footprint, |texel, weight| {
-            add(&mut sum, self.light[texel], weight);
+        self.weighing.for_each_texel(self.world, &footprint, |texel, weight| {
+            for (sum, channel) in sum.iter_mut().zip(self.light[texel].0) {
+                *sum += weight * f64::from(channel);
+            }
             weights += weight;
         });
         let mean = || Rgba(sum.map(|channel| (channel / weights) as f32));
@@ -145,30 +134,4 @@ pub(super) fn reached<'a>(source: &'a Source, footprint: &'a Footprint) -> Optio
     let width = footprint.jacobian.dx.length() + footprint.jacobian.dy.length();
     let reach = 2.0 * (width + source.texel_pitch);
     source.reaches(footprint.direction, reach).then(|| Seen::new(source, footprint))?
-}
-
-/// Adds light, times a weight.
-pub(super) fn add(sum: &mut [f64; 4], light: Rgba, weight: f64) {
-    for (sum, channel) in sum.iter_mut().zip(light.0) {
-        *sum += weight * f64::from(channel);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn short_axes_are_raised_and_long_ones_left() {
-        for columns in [[3.0, 0.5, -1.0, 2.0], [0.2, 0.1, -0.3, 0.4], [5.0, 0.0, 0.0, -0.01], [0.0, 7.0, 0.1, 0.0]] {
-            let (before, after) = (DMat2::from_cols_array(&columns), widened(DMat2::from_cols_array(&columns)));
-            let ([major, minor], [long, short]) = (semi_axes(before), semi_axes(after));
-            assert!((long - major.max(1.0)).abs() < 1e-9 && (short - minor.max(1.0)).abs() < 1e-9, "{columns:?}");
-            assert!(after.determinant() * before.determinant() > 0.0, "{columns:?} is not mirrored");
-            if minor >= 1.0 {
-                assert_eq!(before, after);
-            }
-        }
-        assert_eq!(semi_axes(widened(DMat2::ZERO)), [1.0, 1.0]);
-    }
 }

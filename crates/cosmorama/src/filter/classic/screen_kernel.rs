@@ -9,6 +9,9 @@ impl ScreenKernel {
     /// Radius, in pixels.
     pub(super) const RADIUS: f64 = 1.0;
 
+    /// Integral along a line through the middle: ∫ exp(−2 x²) from −1 to 1.
+    pub(super) const INTEGRAL: f64 = 1.196_288_013_322_608;
+
     /// Falloff over the squared radius.
     const ALPHA: f64 = 2.0;
 

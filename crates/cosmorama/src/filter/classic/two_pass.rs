@@ -12,7 +12,7 @@ use super::screen_kernel::ScreenKernel;
 ///
 /// The intermediate picture has 1/a columns for each column of texels, where a = det J / p. Its bottleneck is a small p:
 /// by the order of passes, and by turning the screen by 90°, p may be any of the four derivatives, and the largest is
-/// taken. Then rows are sheared by 45° at most.
+/// taken. Then rows are sheared by 45° at most. Here p is the derivative that is left undivided.
 ///
 /// The kernel is its own in each pass, so that it is no disc on the screen but a sheared square. This is what two passes
 /// cannot do better, and why `ewa` is rounder.
@@ -40,10 +40,14 @@ impl Passes {
         Self { columns_first, units, shear: along.x / along.y }
     }
 
+    /// Exchanges both axes where columns come first.
     fn turned(&self, at: DVec2) -> DVec2 {
         if self.columns_first { DVec2::new(at.y, at.x) } else { at }
     }
 }
+
+/// Texels in a pixel from which on the sum of weights along a row is the kernel's integral, to a thousandth.
+const MANY: f64 = 256.0;
 
 impl Region for TwoPass {
     fn texels(&self, seen: &Seen, mut visit: impl FnMut([i64; 2], f64)) {
@@ -58,15 +62,18 @@ impl Region for TwoPass {
             let of_row = self.0.weight((down / passes.units.y).powi(2));
             let middle = place.x + passes.shear * down;
             let weight = |column: i64| self.0.weight(((column as f64 + 0.5 - middle) / passes.units.x).powi(2));
-            // The first pass makes a mean of each row: also of texels that the view does not have.
-            let reach = (middle - half.x).floor() as i64..=(middle + half.x).ceil() as i64;
-            let whole: f64 = if of_row > 0.0 { reach.clone().map(weight).sum() } else { 0.0 };
-            if whole <= 0.0 {
+            if of_row <= 0.0 {
                 continue;
             }
-            for column in columns.clone().filter(|column| reach.contains(column)) {
+            // The first pass makes a mean of each row: also of texels that the view does not have.
+            let whole: f64 = if passes.units.x > MANY {
+                passes.units.x * ScreenKernel::INTEGRAL
+            } else {
+                ((middle - half.x).floor() as i64..=(middle + half.x).ceil() as i64).map(weight).sum()
+            };
+            for column in columns.clone() {
                 let part = weight(column);
-                if part > 0.0 {
+                if part > 0.0 && whole > 0.0 {
                     visit(if passes.columns_first { [row, column] } else { [column, row] }, of_row * part / whole);
                 }
             }

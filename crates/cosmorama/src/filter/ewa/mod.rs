@@ -18,10 +18,10 @@ pub(crate) use tap_lender::TapLender;
 
 use super::Kernel;
 use super::taps;
-use super::traits::{Filter, Prepared, SetupCost, bounded};
+use super::traits::{Filter, PrepareError, Prepared, SetupCost, bounded};
 use crate::camera::Footprint;
 use crate::raster::Rgba;
-use crate::world::{Light, LightError, World};
+use crate::world::{Light, World};
 
 /// Elliptical weighted average (Greene & Heckbert 1986), across the edges of views.
 ///
@@ -48,7 +48,7 @@ impl Ewa {
 }
 
 impl Filter for Ewa {
-    fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, LightError> {
+    fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, PrepareError> {
         light.check(world)?;
         Ok(self.of_texels(world, light.texels()))
     }

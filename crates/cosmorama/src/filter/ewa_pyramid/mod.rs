@@ -9,10 +9,10 @@ use level::{LevelNeed, LevelRule, part};
 
 use super::Kernel;
 use super::ewa::{Averager, Ewa, Pinholes};
-use super::traits::{Filter, Prepared, SetupCost, bounded};
+use super::traits::{Filter, PrepareError, Prepared, SetupCost, bounded};
 use crate::camera::Footprint;
 use crate::raster::Rgba;
-use crate::world::{Light, LightError, World};
+use crate::world::{Light, World};
 
 /// EWA on a pyramid: the ellipse is averaged on the levels of halved worlds that fit it best, at a bounded cost
 /// (Heckbert 1989).
@@ -34,7 +34,7 @@ impl Default for EwaPyramid {
 }
 
 impl Filter for EwaPyramid {
-    fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, LightError> {
+    fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, PrepareError> {
         light.check(world)?;
         let levels = Levels::new(world, light.texels());
         let pinholes = (0..=levels.coarsest()).map(|level| Pinholes::of(levels.get(level).0)).collect();

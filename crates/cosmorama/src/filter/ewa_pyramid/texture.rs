@@ -18,14 +18,15 @@ use crate::raster::{Image, Rgba};
 /// Its coordinates u and v go from 0 to 1, to the right and down. Beyond them it goes on as [`Wrap`] says.
 ///
 /// ```
-/// use cosmorama::filter::{Texture, Wrap};
+/// use cosmorama::filter::{Texture, TextureFootprint, Wrap};
 /// use cosmorama::raster::{Image, Rgba};
 /// use glam::{DMat2, DVec2};
 ///
 /// let stripes = Image::from_fn(64, 64, |i, _| if i % 2 == 0 { Rgba::BLACK } else { Rgba::opaque(1.0, 1.0, 1.0) });
 /// let texture = Texture::new(stripes, [Wrap::Repeat; 2]);
 /// // A pixel as wide as eight texels sees grey.
-/// let seen = texture.average(DVec2::new(7.3, 0.5), DMat2::from_diagonal(DVec2::splat(8.0 / 64.0)));
+/// let pixel = TextureFootprint::flat(DVec2::new(7.3, 0.5), DMat2::from_diagonal(DVec2::splat(8.0 / 64.0)));
+/// let seen = texture.average(&pixel);
 /// assert!((seen.0[0] - 0.5).abs() < 0.01);
 /// ```
 #[derive(Debug)]
@@ -51,6 +52,14 @@ pub struct TextureFootprint {
     pub nearing: DVec2,
 }
 
+impl TextureFootprint {
+    /// Returns a pixel that lies on the picture without perspective. The columns of the matrix are the changes of (u, v) for one
+    /// pixel to the right and one down.
+    pub fn flat(at: DVec2, jacobian: DMat2) -> Self {
+        Self { at, jacobian, nearing: DVec2::ZERO }
+    }
+}
+
 /// Ratio of length to width above which a pixel is widened, so that the number of its texels stays bounded.
 const LONGEST: f64 = 64.0;
 
@@ -72,6 +81,9 @@ pub enum Wrap {
 
 impl Wrap {
     /// Returns the column or row of a texel that may lie beyond the edges.
+    ///
+    /// # Panics
+    /// When the size is 0.
     pub fn texel(self, at: i64, size: usize) -> usize {
         let size = size as i64;
         let inside = match self {
@@ -110,17 +122,11 @@ impl Texture {
         self.wrap
     }
 
-    /// Averages the picture under a pixel that lies on it without perspective. The columns of the matrix are the changes of
-    /// (u, v) for one pixel to the right and one down.
-    pub fn average(&self, at: DVec2, jacobian: DMat2) -> Rgba {
-        self.average_of(&TextureFootprint { at, jacobian, nearing: DVec2::ZERO })
-    }
-
     /// Averages the picture under a pixel.
     ///
     /// A pixel that is very much longer than wide is widened, so that the number of texels is bounded. One that holds all of
     /// the picture, or is not finite, has its mean.
-    pub fn average_of(&self, footprint: &TextureFootprint) -> Rgba {
+    pub fn average(&self, footprint: &TextureFootprint) -> Rgba {
         let TextureFootprint { at, jacobian, nearing } = *footprint;
         let coarsest = (self.levels.len() - 1) as f32;
         let number =
@@ -144,12 +150,9 @@ impl Texture {
         let centre = footprint.at * size(level);
         let jacobian = DMat2::from_diagonal(size(level)) * footprint.jacobian;
         let coarseness = kernel.coarseness(jacobian.determinant().abs().sqrt()) as f32;
-        let lens = Lens::new(
-            widened(jacobian * kernel.scale, kernel.floor),
-            footprint.nearing * kernel.scale,
-            self.table.radius_squared().sqrt(),
-        );
         let reach = self.table.radius_squared();
+        let widened = widened(jacobian * kernel.scale, kernel.floor);
+        let lens = Lens::new(widened, footprint.nearing * kernel.scale, reach.sqrt());
         let (rows, middle) = (lens.outline.rows(reach), centre + lens.middle);
         let bounds = TexelBox::around(PixelPoint::new(middle.x, middle.y), lens.outline.half_extent(reach));
         let [across, down] = self.wrap;
@@ -224,6 +227,10 @@ fn size(image: &Image<Rgba>) -> DVec2 {
 mod tests {
     use super::*;
 
+    fn of(texture: &Texture, at: DVec2, jacobian: DMat2) -> Rgba {
+        texture.average(&TextureFootprint::flat(at, jacobian))
+    }
+
     fn noise(width: usize, height: usize) -> Image<Rgba> {
         Image::from_fn(width, height, |i, j| {
             let value = ((i * 37 + j * 101 + i * j * 7) % 29) as f32 / 29.0;
@@ -261,7 +268,7 @@ mod tests {
                 let texels = DMat2::from_cols(DVec2::from_angle(t) * 1.5, DVec2::from_angle(t + 1.2) * 0.9);
                 let jacobian = DMat2::from_diagonal(DVec2::new(24.0, 16.0).recip()) * texels;
                 let (found, expected) =
-                    (texture.average(at, jacobian), laid.average((at + 1.0) / 3.0, jacobian * (1.0 / 3.0)));
+                    (of(&texture, at, jacobian), of(&laid, (at + 1.0) / 3.0, jacobian * (1.0 / 3.0)));
                 let error = (0..4).map(|c| (found.0[c] - expected.0[c]).abs()).fold(0.0, f32::max);
                 assert!(error < 1e-5, "{wrap:?}, {k}: {found:?} for {expected:?}");
             }
@@ -277,7 +284,7 @@ mod tests {
             let size = 0.2 * 1.07f64.powi(k);
             let texels = DMat2::from_cols(DVec2::from_angle(t) * size, DVec2::from_angle(t + 1.0) * size * 0.5);
             let at = DVec2::new(0.5 + 0.05 * t.sin(), 0.5 + 0.05 * t.cos());
-            let found = texture.average(at, texels * (1.0 / 64.0));
+            let found = of(&texture, at, texels * (1.0 / 64.0));
             let error = (DVec2::new(found.0[0].into(), found.0[1].into()) - at * 64.0).abs().max_element();
             assert!(error < 0.01 * size.max(1.0), "{k}: {error} of {size}");
         }
@@ -325,7 +332,7 @@ mod tests {
         let wide = DMat2::from_diagonal(DVec2::splat(1e9));
         let lost = DMat2::from_diagonal(DVec2::splat(f64::NAN));
         let at = DVec2::new(0.3, 0.7);
-        for found in [texture.average(at, wide), texture.average(at, lost), texture.average(at * f64::INFINITY, wide)] {
+        for found in [of(&texture, at, wide), of(&texture, at, lost), of(&texture, at * f64::INFINITY, wide)] {
             assert!((0..4).all(|c| (found.0[c] - mean.0[c]).abs() < 1e-5), "{found:?} for {mean:?}");
         }
     }

@@ -1,15 +1,15 @@
 use crate::camera::Footprint;
-use crate::filter::traits::{Filter, Prepared, SetupCost, bounded};
+use crate::filter::traits::{Filter, PrepareError, Prepared, SetupCost, bounded};
 use crate::filter::{lookup, reference};
 use crate::raster::Rgba;
-use crate::world::{Light, LightError, World};
+use crate::world::{Light, World};
 
 /// Bilinear interpolation between the four texels around the middle of a footprint.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Bilinear;
 
 impl Filter for Bilinear {
-    fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, LightError> {
+    fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, PrepareError> {
         light.check(world)?;
         Ok(Box::new(PreparedBilinear { world, light: light.texels() }))
     }
@@ -30,7 +30,7 @@ impl Prepared for PreparedBilinear<'_> {
     }
 
     fn reads(&self, footprint: &Footprint) -> usize {
-        lookup::reads(self.world, footprint.direction)
+        bounded(footprint).map_or(0, |footprint| lookup::reads(self.world, footprint.direction))
     }
 
     fn average(&self, footprint: &Footprint) -> Rgba {

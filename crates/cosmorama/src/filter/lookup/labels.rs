@@ -2,10 +2,10 @@ use super::nearest;
 use crate::camera::{Footprint, View};
 use crate::filter::ewa::TapLender;
 use crate::filter::taps::Tap;
-use crate::filter::traits::{Filter, Prepared, SetupCost, bounded};
+use crate::filter::traits::{Filter, PrepareError, Prepared, SetupCost, bounded};
 use crate::filter::{CrossSection, Kernel};
 use crate::raster::Rgba;
-use crate::world::{Light, LightError, World};
+use crate::world::{Light, World};
 
 /// Rule by which a pixel takes one texel's value, for labels. Labels are names, such as object numbers, so that a
 /// mixture of two means nothing.
@@ -36,7 +36,7 @@ impl Labels {
 }
 
 impl Filter for Labels {
-    fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, LightError> {
+    fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, PrepareError> {
         light.check(world)?;
         Ok(Box::new(PreparedLabels::new(self, world, light.texels())))
     }

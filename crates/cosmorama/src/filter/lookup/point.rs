@@ -1,15 +1,15 @@
 use super::nearest;
 use crate::camera::Footprint;
-use crate::filter::traits::{Filter, Prepared, SetupCost, bounded};
+use crate::filter::traits::{Filter, PrepareError, Prepared, SetupCost, bounded};
 use crate::raster::Rgba;
-use crate::world::{Light, LightError, World};
+use crate::world::{Light, World};
 
 /// The one texel that the middle of a footprint sees, without filtering.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Point;
 
 impl Filter for Point {
-    fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, LightError> {
+    fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, PrepareError> {
         light.check(world)?;
         Ok(Box::new(PreparedPoint { world, light: light.texels() }))
     }
@@ -30,6 +30,7 @@ impl Prepared for PreparedPoint<'_> {
     }
 
     fn reads(&self, footprint: &Footprint) -> usize {
+        let Some(footprint) = bounded(footprint) else { return 0 };
         let mut count = 0;
         nearest(self.world, footprint.direction, |_, _| count += 1);
         count

@@ -12,17 +12,17 @@ use crate::world::{Source, World};
 pub fn cone(world: &World, axis: Direction, half_angle: Angle) -> (String, usize) {
     let net = Net::of(world);
     let images = || world.sources().iter().zip(&net.images);
-    let touched = images().filter(|(source, frame)| !region(source, **frame, (axis, half_angle)).area(true).is_empty());
-    let (touched, count) = (touched.count(), world.sources().len());
+    let regions: Vec<_> = images().map(|(source, &frame)| region(source, frame, (axis, half_angle))).collect();
+    let areas: Vec<Vec<Rect>> = regions.iter().map(|region| region.area(true)).collect();
+    let (touched, count) = (areas.iter().filter(|area| !area.is_empty()).count(), areas.len());
     let part = 50.0 * (1.0 - half_angle.radians().cos());
     let views = if count == 1 { "view" } else { "views" };
     let subtitle = format!("A cone over {part:.1} % of the world. It touches {touched} of {count} {views}.");
     let mut drawing = sheet(net.size, "A reflection cone", &subtitle);
     for (index, (source, &frame)) in images().enumerate() {
-        let region = region(source, frame, (axis, half_angle));
         drawing.rect(frame, Paint::fill("#ffffff"));
-        drawing.rects(&region.area(true), Paint::fill(colour(index)));
-        drawing.polylines(region.edges().iter().map(|segment| &segment[..]), Paint::stroke(INK, 1.5));
+        drawing.rects(&areas[index], Paint::fill(colour(index)));
+        drawing.polylines(regions[index].edges().iter().map(|segment| &segment[..]), Paint::stroke(INK, 1.5));
         drawing.rect(frame, Paint::stroke(DARK, 1.5));
         drawing.label_on(&source.name, (frame.x + 8.0, frame.y + 8.0 + SMALL), SMALL, PAPER, INK);
     }
@@ -35,7 +35,7 @@ fn region(source: &Source, frame: Rect, (axis, half_angle): (Direction, Angle)) 
     let least = half_angle.radians().cos();
     let label = move |u: f64, v: f64| {
         let pixel = PixelPoint::new(u * columns, v * rows);
-        source.view.direction(pixel).is_some_and(|direction| direction.dot(axis) > least)
+        source.shows(pixel) && source.view.direction(pixel).is_some_and(|direction| direction.dot(axis) > least)
     };
     Regions { frame, columns: frame.width.round() as usize / 2, rows: frame.height.round() as usize, label }
 }

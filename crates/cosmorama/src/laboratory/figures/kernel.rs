@@ -1,4 +1,4 @@
-use super::plot::{Plot, Series};
+use super::plot::Plot;
 use crate::filter::CrossSection;
 
 /// Points of the curve on each side of the middle.
@@ -8,12 +8,7 @@ const POINTS: i32 = 200;
 pub fn kernel(section: CrossSection, name: &str) -> String {
     let radius = section.radius();
     let at = |k: i32| f64::from(k) / f64::from(POINTS) * 1.25 * radius;
-    let points = (-POINTS..=POINTS).map(|k| (at(k), section.weight(at(k).abs()))).collect();
-    let plot = Plot {
-        title: "A kernel".to_owned(),
-        subtitle: format!("{name}, and nothing from the radius {radius} on."),
-        axes: ["r, in pixels".to_owned(), "weight".to_owned()],
-        series: vec![Series { name: String::new(), points }],
-    };
-    plot.svg()
+    let points: Vec<_> = (-POINTS..=POINTS).map(|k| (at(k), section.weight(at(k).abs()))).collect();
+    let subtitle = format!("{name}, and nothing from the radius {radius} on.");
+    Plot { title: "A kernel", subtitle: &subtitle, axes: ["r, in pixels", "weight"], points: &points }.svg()
 }

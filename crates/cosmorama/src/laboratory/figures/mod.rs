@@ -10,5 +10,4 @@ mod screen;
 pub use cone::cone;
 pub use kernel::kernel;
 pub use paraboloid::paraboloid;
-pub use plot::{Plot, Series};
 pub use screen::circles;

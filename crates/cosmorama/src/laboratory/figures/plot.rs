@@ -1,45 +1,31 @@
 use crate::explain::sheet::drawing::{Anchor, Paint, Point, Rect};
 use crate::explain::sheet::heading::sheet;
-use crate::explain::sheet::theme::{FAINT, HEADER, INK, LABEL, MARGIN, SMALL};
+use crate::explain::sheet::theme::{FAINT, HEADER, INK, LABEL, MARGIN, SMALL, colour};
 
-/// Curves over one axis.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Plot {
-    /// Title, and a line under it.
-    pub title: String,
+/// A curve over one axis.
+pub(super) struct Plot<'a> {
+    pub(super) title: &'a str,
     /// Line under the title.
-    pub subtitle: String,
+    pub(super) subtitle: &'a str,
     /// Meaning of the axes: across, and upwards.
-    pub axes: [String; 2],
-    /// Curves.
-    pub series: Vec<Series>,
-}
-
-/// One curve.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Series {
-    /// Name beside its last point; nothing if it is empty.
-    pub name: String,
+    pub(super) axes: [&'a str; 2],
     /// Points, from left to right.
-    pub points: Vec<Point>,
+    pub(super) points: &'a [Point],
 }
 
-/// Size of the field of the curves on the sheet, and room for numbers and names around it.
+/// Size of the field of the curve on the sheet, and room for numbers around it.
 const WIDTH: f64 = 560.0;
 const HEIGHT: f64 = 320.0;
 const LEFT: f64 = 56.0;
-const RIGHT: f64 = 150.0;
 const BELOW: f64 = 48.0;
 
-const COLOURS: [&str; 6] = ["#1f6fb2", "#d1303a", "#2f8f4e", "#8a4fb0", "#c77a1a", "#1d2430"];
-
-impl Plot {
-    /// Draws the curves. Axes span all points, to round numbers.
-    pub fn svg(&self) -> String {
-        let points = || self.series.iter().flat_map(|series| &series.points);
+impl Plot<'_> {
+    /// Draws the curve. Axes span all points, to round numbers.
+    pub(super) fn svg(&self) -> String {
+        let points = || self.points.iter();
         let (across, up) = (Ticks::of(points().map(|point| point.0)), Ticks::of(points().map(|point| point.1)));
-        let size = (LEFT + WIDTH + RIGHT + 2.0 * MARGIN, HEADER + HEIGHT + BELOW + MARGIN);
-        let mut drawing = sheet(size, &self.title, &self.subtitle);
+        let size = (LEFT + WIDTH + 2.0 * MARGIN, HEADER + HEIGHT + BELOW + MARGIN);
+        let mut drawing = sheet(size, self.title, self.subtitle);
         let frame = Rect { x: MARGIN + LEFT, y: HEADER, width: WIDTH, height: HEIGHT };
         drawing.rect(frame, Paint::fill("#ffffff"));
         let place =
@@ -54,18 +40,13 @@ impl Plot {
             drawing.polylines([&[(frame.x, y), (frame.x + WIDTH, y)][..]], Paint::stroke(FAINT, 0.7));
             drawing.label(&up.text(tick), (MARGIN, y + SMALL / 2.0), SMALL, Anchor::Start, INK);
         }
-        for (series, colour) in self.series.iter().zip(COLOURS.iter().cycle()) {
-            let line: Vec<Point> = series.points.iter().map(|&point| place(point)).collect();
-            drawing.polylines([&line[..]], Paint::stroke(colour, 2.0));
-            if let Some(&(x, y)) = line.last() {
-                drawing.label(&series.name, (x + 8.0, y + SMALL / 2.0), SMALL, Anchor::Start, colour);
-            }
-        }
+        let line: Vec<Point> = points().map(|&point| place(point)).collect();
+        drawing.polylines([&line[..]], Paint::stroke(colour(0), 2.0));
         let below = (frame.x + WIDTH / 2.0, frame.y + HEIGHT + 38.0);
-        drawing.label(&self.axes[0], below, LABEL * 0.8, Anchor::Middle, INK);
-        drawing.label(&self.axes[1], (frame.x, frame.y - 6.0), SMALL, Anchor::Start, INK);
+        drawing.label(self.axes[0], below, LABEL * 0.8, Anchor::Middle, INK);
+        drawing.label(self.axes[1], (frame.x, frame.y - 6.0), SMALL, Anchor::Start, INK);
         drawing.rect(frame, Paint::stroke(INK, 1.2));
-        drawing.finish(&self.title)
+        drawing.finish(self.title)
     }
 }
 
@@ -77,7 +58,7 @@ struct Ticks {
 }
 
 impl Ticks {
-    /// Chooses five to ten steps of 1, 2 or 5 times a power of ten.
+    /// Chooses some four to ten steps of 1, 2 or 5 times a power of ten.
     fn of(values: impl Iterator<Item = f64>) -> Self {
         let (least, most) =
             values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), value| (a.min(value), b.max(value)));

@@ -45,7 +45,10 @@ pub enum PresetError {
 }
 
 impl HarmonicPreset {
-    /// Returns its name.
+    /// All programs.
+    pub const ALL: [Self; 4] = [Self::Filament, Self::Three, Self::Unity, Self::Godot];
+
+    /// Returns the program's name, in lower case.
     pub fn name(self) -> &'static str {
         match self {
             Self::Filament => "filament",
@@ -54,9 +57,6 @@ impl HarmonicPreset {
             Self::Godot => "godot",
         }
     }
-
-    /// All programs.
-    pub const ALL: [Self; 4] = [Self::Filament, Self::Three, Self::Unity, Self::Godot];
 
     /// Returns the axes in which it shows a panorama.
     pub fn basis(self) -> HarmonicBasis {

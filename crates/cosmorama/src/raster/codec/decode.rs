@@ -16,7 +16,7 @@ pub struct IrregularPixels {
     pub infinite: usize,
     /// Pixels whose alpha is below 0 or above 1, which is decoded as 0 or 1.
     pub alpha: usize,
-    /// Pixels with a negative colour, which stays as it is.
+    /// Pixels with a negative colour. Finite ones stay as they are.
     pub negative: usize,
 }
 

@@ -88,8 +88,10 @@ impl Continuation {
         // By ways along great circles; at the points where the nearest edge is another, no wider than what a filter can bear.
         let difference = |step: DVec3| {
             let moved = at(step)?;
-            let ahead = moved.vector().reject_from_normalized(direction.vector()).normalize_or_zero();
-            let way = ahead * direction.angle_to(moved).radians();
+            let here = direction.vector();
+            let ahead = moved.vector().reject_from_normalized(here).normalize_or_zero();
+            // Once more, since of opposite directions the first time leaves rounding.
+            let way = ahead.reject_from_normalized(here) * direction.angle_to(moved).radians();
             Some(way.clamp_length_max(WIDEST * step.length()))
         };
         let DirectionJacobian { dx, dy } = pixel.jacobian;

@@ -24,20 +24,6 @@ pub enum LightError {
     /// The pictures' sizes differ from the views'.
     #[error("the light is not that of these views: they have other sizes")]
     WrongViews,
-    /// A filter would keep too few bits of the light.
-    #[error(
-        "the filter repeated-integration of order {order} keeps {bits} bits of each texel over a view of {}x{} texels, and \
-         needs 24; choose a lower order, as in repeated-integration:order=2",
-        size[0], size[1]
-    )]
-    LosesPrecision {
-        /// Order of integration.
-        order: u32,
-        /// Columns and rows of the view.
-        size: [usize; 2],
-        /// Bits that are kept.
-        bits: u32,
-    },
 }
 
 /// The light of a world: a texel for each texel of each of its views.

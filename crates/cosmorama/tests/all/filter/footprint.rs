@@ -1,7 +1,7 @@
 //! The one door: a world averaged over a footprint, by every filter.
 
 use cosmorama::camera::{CameraModel, Covariance, Footprint, MirrorBallCamera, View};
-use cosmorama::filter::{Classic, Filter, FilterKind, FilterSettings, Prepared};
+use cosmorama::filter::{Classic, Filter, FilterKind, FilterSettings, PrepareError, Prepared};
 use cosmorama::raster::{Image, Rgba};
 use cosmorama::render::{Resampler, picture};
 use cosmorama::sphere::{CubeFace, Direction};
@@ -250,7 +250,7 @@ fn light_of_another_world_is_refused() {
     let (world, other) = (one(equirect(64)), one(equirect(32)));
     let light = Light::by_direction(&other, |_| Rgba::BLACK);
     for kind in kinds() {
-        assert_eq!(filter(kind).prepare(&world, &light).err(), Some(LightError::WrongViews));
+        assert_eq!(filter(kind).prepare(&world, &light).err(), Some(PrepareError::Light(LightError::WrongViews)));
         let setup = filter(kind).setup(&world);
         let keeps =
             |classic| matches!(classic, Classic::MipMap(_) | Classic::SummedArea | Classic::RepeatedIntegration { .. });

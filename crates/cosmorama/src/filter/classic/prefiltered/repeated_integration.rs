@@ -34,13 +34,16 @@ const FINEST: u32 = 40;
 
 /// Returns the bits of a texel's light in the integrals of an order: what a kernel as large as the picture leaves.
 pub(in crate::filter::classic) fn bits_of(source: &Source, order: u32) -> u32 {
-    let texels = source.columns().max(1) * source.view.height().max(1);
-    ROOM.saturating_sub(order * texels.next_power_of_two().ilog2()).min(FINEST)
+    bits_left(source.columns().max(1) * source.view.height().max(1), order)
+}
+
+/// Returns the bits that so many texels leave.
+fn bits_left(texels: usize, order: u32) -> u32 {
+    ROOM.saturating_sub(order.saturating_mul(texels.next_power_of_two().ilog2())).min(FINEST)
 }
 
 /// Sums of one view's texels, n times along rows and n times along columns.
 struct Table {
-    order: usize,
     columns: Axis,
     rows: Axis,
     sums: Vec<Sums>,
@@ -128,11 +131,10 @@ impl Table {
             let [red, green, blue, alpha] = light[texel].0.map(|channel| f64::from(channel) * solid_angle);
             [red, green, blue, alpha, solid_angle]
         };
-        let greatest = |values: &[f64]| values.iter().fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()));
         let mut most = [f64::MIN_POSITIVE; 2];
         for texel in 0..light.len() {
-            let values = weighted(texel);
-            most = [most[0].max(greatest(&values[..4])), most[1].max(values[4])];
+            let [channels @ .., solid_angle] = weighted(texel);
+            most = [channels.iter().fold(most[0], |most, value| most.max(value.abs())), most[1].max(solid_angle)];
         }
         let units = most.map(|most| most / f64::from(bits).exp2());
         let mut sums = vec![[0; 5]; columns.kept() * rows.kept()];
@@ -148,7 +150,7 @@ impl Table {
         for _ in 0..order {
             integrate_rows(&mut sums, columns.kept());
         }
-        Self { order, columns, rows, sums, units }
+        Self { columns, rows, sums, units }
     }
 
     /// Returns the mean under a spline around a place, whose boxes have these widths.
@@ -163,7 +165,7 @@ impl Table {
                         let part = height_part * bottom_part * width_part * right_part;
                         if part > 0.0 {
                             self.columns.difference(right, width, &mut across);
-                            let area = ((width * height) as f64).powi(self.order as i32);
+                            let area = ((width * height) as f64).powi(self.columns.order as i32);
                             let sums = self.weighted(&across, &down);
                             (0..5).for_each(|k| {
                                 mean[k] += sums[k] as f64 * self.units[usize::from(k == 4)] * part / area
@@ -179,7 +181,7 @@ impl Table {
     /// Returns where boxes of a width end that are centred on a place: the middle of n boxes of h texels, added, is
     /// n (h + 1)/2 − ½ before the end of their sums.
     fn end(&self, place: f64, width: i64) -> f64 {
-        place + self.order as f64 * (width + 1) as f64 / 2.0 - 0.5
+        place + self.columns.order as f64 * (width + 1) as f64 / 2.0 - 0.5
     }
 
     /// Returns a sum of sums with factors, modulo 2¹²⁸.
@@ -246,7 +248,7 @@ impl Prepared for PreparedIntegrals<'_> {
         let Some(footprint) = bounded(footprint) else { return 0 };
         let views = self.world.sources().iter().zip(&self.tables);
         let reached = views.filter(|(source, _)| reached(source, &footprint).is_some());
-        reached.map(|(_, table)| BETWEEN * (table.order + 1).pow(2)).sum()
+        reached.map(|(_, table)| BETWEEN * (table.columns.order + 1).pow(2)).sum()
     }
 
     fn average(&self, footprint: &Footprint) -> Rgba {
@@ -313,6 +315,14 @@ mod tests {
                 assert_eq!(difference(axis, &sums, end, width as i64), expected, "order {order}, {width} to {end}");
             }
         }
+    }
+
+    #[test]
+    fn large_pictures_leave_fewer_bits_to_high_orders() {
+        assert_eq!((1..=4).map(|order| bits_left(1 << 24, order)).collect::<Vec<_>>(), [40, 40, 40, 30]);
+        // 16384 × 8192: 27 bits of texels, four times; 24 are asked for.
+        assert_eq!((3..=4).map(|order| bits_left(1 << 27, order)).collect::<Vec<_>>(), [40, 18]);
+        assert_eq!(bits_left(2, u32::MAX), 0);
     }
 
     /// Sums of light of 100 bits wrap around many times, and differences are still exact.

@@ -97,11 +97,8 @@ impl Prepared for PreparedSummedArea<'_> {
     fn reads(&self, footprint: &Footprint) -> usize {
         /// Entries around each corner of a rectangle.
         const ENTRIES: usize = 4 * 4;
-        let footprint = bounded(footprint);
-        let reached = |footprint: &Footprint| {
-            self.world.sources().iter().filter(|source| reached(source, footprint).is_some()).count()
-        };
-        ENTRIES * footprint.as_ref().map_or(0, reached)
+        let Some(footprint) = bounded(footprint) else { return 0 };
+        ENTRIES * self.world.sources().iter().filter(|source| reached(source, &footprint).is_some()).count()
     }
 
     fn average(&self, footprint: &Footprint) -> Rgba {

@@ -1,9 +1,4 @@
-mod verify;
-
 use clap::{Args, ValueHint};
-
-pub(super) use verify::VERIFY_EXAMPLES;
-pub(crate) use verify::VerifyArgs;
 
 use super::with_examples;
 

@@ -1,13 +1,10 @@
-use std::path::PathBuf;
+use clap::Args;
 
-use clap::{Args, ValueHint};
-
-use crate::args::convert::LimitArgs;
+use super::PaperArgs;
 use crate::args::with_examples;
 
 /// Example commands in its help.
-pub(in crate::args) const FIGURES_EXAMPLES: [&str; 2] =
-    ["cosmorama figures figures", "cosmorama figures /tmp/figures -y"];
+pub(in crate::args) const EXAMPLES: [&str; 2] = ["cosmorama figures figures", "cosmorama figures /tmp/figures -y"];
 
 /// Remake the figures of the papers from our own pictures.
 ///
@@ -15,14 +12,8 @@ pub(in crate::args) const FIGURES_EXAMPLES: [&str; 2] =
 /// the unfolded cube, which face gives which pixel, the frame, aliasing, footprints, the paraboloid Q, the kernel, a reflection
 /// cone in Mercator's projection and on a cube. docs/filters.md shows them.
 #[derive(Debug, Args)]
-#[command(help_template = with_examples(&FIGURES_EXAMPLES))]
+#[command(help_template = with_examples(&EXAMPLES))]
 pub(crate) struct FiguresArgs {
-    /// Where to write
-    #[arg(value_hint = ValueHint::DirPath)]
-    pub(crate) dir: PathBuf,
-    /// Replace existing files
-    #[arg(short = 'y', long)]
-    pub(crate) overwrite: bool,
     #[command(flatten)]
-    pub(crate) limits: LimitArgs,
+    pub(crate) paper: PaperArgs,
 }

@@ -2,11 +2,12 @@ use clap::builder::{NonEmptyStringValueParser, PossibleValuesParser, TypedValueP
 use clap::{Args, ValueHint};
 use cosmorama::filter::LabelRule;
 use cosmorama::motion::{Easing, Ramp, ShutterCurve, Smoothness};
+use cosmorama::sphere::{Angle, Orientation};
 use cosmorama_convert::BlurMethod;
 use cosmorama_spec::{FilterName, KernelName, Size, Spec};
 
-use super::parse::listed;
-use super::parse::number::{positive, ramp, zoom};
+use crate::parse::listed;
+use crate::parse::number::{degrees, positive, ramp, zoom};
 
 /// Geometry and filter of a conversion, shared by `convert` and `explain`.
 #[derive(Clone, Debug, Args)]
@@ -62,6 +63,27 @@ pub(crate) struct GeometryArgs {
     /// All but slopes that go on to a rim where all texels confirm them: on, unless the kernel is light.
     #[arg(long, value_name = "on|off", action = clap::ArgAction::Set, value_parser = on_or_off, hide_short_help = true, help_heading = "Filter")]
     pub(crate) anti_ringing: Option<bool>,
+}
+
+/// Turn of the camera of one picture.
+#[derive(Clone, Copy, Debug, Args)]
+pub(crate) struct TurnArgs {
+    /// Turn the output to the right, in degrees
+    #[arg(long, value_name = "D", default_value_t = 0.0, value_parser = degrees, allow_negative_numbers = true, hide_short_help = true, help_heading = "Geometry")]
+    yaw: f64,
+    /// Turn the output up
+    #[arg(long, value_name = "D", default_value_t = 0.0, value_parser = degrees, allow_negative_numbers = true, hide_short_help = true, help_heading = "Geometry")]
+    pitch: f64,
+    /// Turn the output's camera clockwise
+    #[arg(long, value_name = "D", default_value_t = 0.0, value_parser = degrees, allow_negative_numbers = true, hide_short_help = true, help_heading = "Geometry")]
+    roll: f64,
+}
+
+impl From<TurnArgs> for Orientation {
+    fn from(turn: TurnArgs) -> Self {
+        let [yaw, pitch, roll] = [turn.yaw, turn.pitch, turn.roll].map(Angle::from_degrees);
+        Self::from_yaw_pitch_roll(yaw, pitch, roll)
+    }
 }
 
 /// Movement of the output's camera.

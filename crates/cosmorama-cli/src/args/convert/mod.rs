@@ -1,3 +1,6 @@
+mod geometry;
+mod settings;
+
 use clap::builder::{NonEmptyStringValueParser, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
 use cosmorama_convert::{DepthKind, NormalSpace, OcioSettings};
@@ -6,11 +9,13 @@ use cosmorama_spec::{
     Colour, DepthName, FrameMap, FrameRanges, FrameRangesError, MemorySize, Missing, PrimariesName, Spec, TransferName,
 };
 
-use super::ProgressStyle;
-use super::geometry::{CameraArgs, GeometryArgs, ShutterArgs};
-use super::parse::compression::CompressionParser;
-use super::parse::listed;
 use super::{SEE_MORE, projections, with_examples};
+use crate::parse::compression::CompressionParser;
+use crate::parse::listed;
+use crate::parse::progress::ProgressStyle;
+
+pub(super) use geometry::{CameraArgs, GeometryArgs, ShutterArgs, TurnArgs};
+pub(super) use settings::existing;
 
 /// Example commands in its help.
 pub(super) const EXAMPLES: [&str; 10] = [

@@ -3,8 +3,6 @@ use std::ffi::OsStr;
 use std::marker::PhantomData;
 use std::str::FromStr;
 
-use crate::args::light::lobe::LobeName;
-use crate::args::{CameraName, MaterialName, ObjectName};
 use clap::builder::{PossibleValue, TypedValueParser};
 use clap::{Arg, Command, Error};
 use cosmorama_spec::{DepthName, FilterName, KernelName, PrimariesName, Spec, SpecKind, TransferName};
@@ -19,7 +17,8 @@ pub(crate) struct Listed<T> {
 }
 
 impl<T> Listed<T> {
-    fn new(names: impl IntoIterator<Item = (&'static str, &'static str)>) -> Self {
+    /// Reads a value that may begin with one of these names.
+    pub(crate) fn new(names: impl IntoIterator<Item = (&'static str, &'static str)>) -> Self {
         Self { names: names.into_iter().collect(), of: PhantomData }
     }
 }
@@ -69,28 +68,6 @@ pub(crate) fn kernel() -> Listed<KernelName> {
 /// Reads the name of primaries.
 pub(crate) fn primaries() -> Listed<PrimariesName> {
     Listed::new(PrimariesName::NAMES)
-}
-
-/// Reads the name of a lobe.
-pub(crate) fn lobe() -> Listed<LobeName> {
-    Listed::new(LobeName::NAMES)
-}
-
-/// Reads the name of things under a world.
-pub(crate) fn object() -> Listed<ObjectName> {
-    Listed::new(ObjectName::NAMES)
-}
-
-/// Reads the name of a material.
-pub(crate) fn material() -> Listed<MaterialName> {
-    Listed::new(MaterialName::NAMES)
-}
-
-/// Reads a camera.
-pub(crate) fn camera() -> Listed<CameraName> {
-    let parallel = ("orthographic", "parallel rays; orthographic:height=H");
-    let own = ("gltf", "a model's own camera, the first; gltf:NAME");
-    Listed::new(SpecKind::all().map(|kind| (kind.name(), kind.about())).chain([parallel, own]))
 }
 
 /// Reads the name of a transfer function.

@@ -30,6 +30,11 @@ pub(crate) fn zoom(text: &str) -> Result<Ramp, String> {
     })
 }
 
+/// Parses the distance of frames.
+pub(crate) fn every(text: &str) -> Result<usize, String> {
+    text.parse().ok().filter(|frames| *frames > 0).ok_or_else(|| "expected a number of frames, 1 at least".to_owned())
+}
+
 /// Parses a distance: a number not less than zero.
 pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
     finite(text).ok().filter(|number| *number >= 0.0).ok_or_else(|| "expected a number, 0 or more".to_owned())

@@ -10,9 +10,9 @@ use cosmorama_convert::{
 };
 use cosmorama_spec::FilterName;
 
-use super::convert::LimitArgs;
 use super::geometry::{CameraArgs, GeometryArgs, MotionKind, ShutterArgs};
-use super::{ConvertArgs, ExplainArgs};
+use super::{ConvertArgs, LimitArgs};
+use crate::args::ExplainArgs;
 
 impl From<ConvertArgs> for Conversion {
     fn from(args: ConvertArgs) -> Self {
@@ -153,7 +153,7 @@ impl CameraArgs {
 }
 
 /// Returns what becomes of outputs that exist.
-pub(super) fn existing(overwrite: bool, resume: bool) -> Existing {
+pub(in crate::args) fn existing(overwrite: bool, resume: bool) -> Existing {
     match (overwrite, resume) {
         (true, _) => Existing::Replace,
         (false, true) => Existing::Resume,

@@ -2,17 +2,16 @@ use std::path::PathBuf;
 
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueHint};
-use cosmorama::sphere::{Angle, Orientation};
 use cosmorama_convert::{Conversion, GeometrySettings};
+use cosmorama_io::FrameList;
 use cosmorama_spec::{FilterName, KernelName, Size, Spec, TransferName};
 
-use crate::args::convert::LimitArgs;
-use crate::args::parse::listed;
-use crate::args::parse::number::finite;
-use crate::args::{ProgressStyle, SEE_MORE, projections, with_examples};
+use super::convert::{LimitArgs, TurnArgs, frame_list};
+use super::{ProgressStyle, SEE_MORE, projections, with_examples};
+use crate::parse::listed;
 
 /// Example commands in its help.
-pub(in crate::args) const FILTERS_EXAMPLES: [&str; 4] = [
+pub(super) const EXAMPLES: [&str; 4] = [
     "cosmorama filters 'faces/{face}.png' --to omnimax --size 983x718",
     "cosmorama filters sky.jpg --to perspective:fov=60 --size 512",
     "cosmorama filters sky.png --to fulldome --size 512 --only ewa,mipmap,point",
@@ -26,7 +25,7 @@ pub(in crate::args) const FILTERS_EXAMPLES: [&str; 4] = [
 /// seconds of the picture and of the preparation within; the memory of that; and texels read for a pixel. docs/filters.md says
 /// what the figures mean.
 #[derive(Clone, Debug, Args)]
-#[command(help_template = with_examples(&FILTERS_EXAMPLES))]
+#[command(help_template = with_examples(&EXAMPLES))]
 #[command(after_help = SEE_MORE, after_long_help = projections())]
 pub(crate) struct FiltersArgs {
     /// An image or a pattern, as convert takes it
@@ -41,15 +40,8 @@ pub(crate) struct FiltersArgs {
     /// Output pixels [default: parity with the input at the centre]
     #[arg(long, value_name = "WxH|N", allow_hyphen_values = true, help_heading = "Geometry")]
     pub(crate) size: Option<Size>,
-    /// Turn the output to the right, in degrees
-    #[arg(long, value_name = "D", default_value = "0", value_parser = finite, allow_hyphen_values = true, help_heading = "Geometry")]
-    pub(crate) yaw: f64,
-    /// Turn the output up
-    #[arg(long, value_name = "D", default_value = "0", value_parser = finite, allow_hyphen_values = true, help_heading = "Geometry")]
-    pub(crate) pitch: f64,
-    /// Turn the output's camera clockwise
-    #[arg(long, value_name = "D", default_value = "0", value_parser = finite, allow_hyphen_values = true, help_heading = "Geometry")]
-    pub(crate) roll: f64,
+    #[command(flatten)]
+    pub(crate) turn: TurnArgs,
     /// Filters to compare, as in ewa,mipmap [default: all]
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = listed::filter(), hide_possible_values = true, help_heading = "Filter")]
     pub(crate) only: Vec<FilterName>,
@@ -62,6 +54,9 @@ pub(crate) struct FiltersArgs {
     /// How integer code values relate to light, of both files
     #[arg(long, value_name = "T", default_value = "auto", value_parser = listed::transfer(), hide_possible_values = true, help_heading = "Filter")]
     pub(crate) transfer: TransferName,
+    /// Which frame of several
+    #[arg(long, value_name = "N", value_parser = frame_list, allow_hyphen_values = true, help_heading = "Run")]
+    pub(crate) frames: Option<FrameList>,
     /// Write crops.png into this folder: the same places by each filter
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath, help_heading = "Run")]
     pub(crate) output: Option<PathBuf>,
@@ -82,20 +77,32 @@ pub(crate) struct FiltersArgs {
 }
 
 impl FiltersArgs {
+    /// Returns the filters to compare, each once: those that were asked for, or all.
+    pub(crate) fn filters(&self) -> Vec<FilterName> {
+        let all = || FilterName::NAMES.iter().filter_map(|(name, _)| name.parse().ok()).collect();
+        let mut filters = if self.only.is_empty() { all() } else { Vec::new() };
+        for filter in &self.only {
+            if !filters.contains(filter) {
+                filters.push(*filter);
+            }
+        }
+        filters
+    }
+
     /// Returns the conversion on which filters are compared.
     pub(crate) fn conversion(&self) -> Conversion {
-        let [yaw, pitch, roll] = [self.yaw, self.pitch, self.roll].map(Angle::from_degrees);
         Conversion {
             input: self.input.clone(),
             geometry: GeometrySettings {
                 from: self.from.clone(),
                 to: self.to.clone(),
                 size: self.size,
-                orientation: Orientation::from_yaw_pitch_roll(yaw, pitch, roll),
+                orientation: self.turn.into(),
                 kernel: self.kernel,
                 ..GeometrySettings::default()
             },
             transfer: self.transfer.clone(),
+            frames: self.frames.clone(),
             limits: self.limits.clone().into(),
             ..Conversion::default()
         }

@@ -1,14 +1,6 @@
-mod figures;
-mod plates;
-
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueHint};
-
-pub(super) use figures::FIGURES_EXAMPLES;
-pub(crate) use figures::FiguresArgs;
-pub(super) use plates::EXAMPLES as PLATES_EXAMPLES;
-pub(crate) use plates::PlatesArgs;
 
 use super::convert::LimitArgs;
 use super::with_examples;

@@ -1,16 +1,16 @@
-use std::num::NonZeroU64;
 use std::path::PathBuf;
 
+use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueHint};
 use cosmorama_io::FrameList;
-use cosmorama_spec::{MemorySize, Size};
+use cosmorama_spec::Size;
 
-use crate::args::convert::frame_list;
-use crate::args::parse::progress::ProgressStyle;
-use crate::args::with_examples;
+use super::convert::{LimitArgs, frame_list};
+use super::{ProgressStyle, with_examples};
+use crate::parse::number::every;
 
 /// Example commands in its help.
-pub(in crate::args) const VERIFY_EXAMPLES: [&str; 3] = [
+pub(super) const EXAMPLES: [&str; 3] = [
     "cosmorama verify 'dome_####.png'",
     "cosmorama verify 'dome_####.png' --frames 1-50000 --size 4096 --json",
     "cosmorama verify 'dome_####.exr' --sheet sheet.png --every 100",
@@ -22,10 +22,10 @@ pub(in crate::args) const VERIFY_EXAMPLES: [&str; 3] = [
 /// channels or another depth, those made by other settings, black ones, those that equal the frame before, and flashes: single frames far from both neighbours.
 /// With a fault the exit code is 1, and the last line lists all frames to make again.
 #[derive(Debug, Args)]
-#[command(help_template = with_examples(&VERIFY_EXAMPLES))]
+#[command(help_template = with_examples(&EXAMPLES))]
 pub(crate) struct VerifyArgs {
     /// Names of the frames, with ####, @@@@ or %04d where their numbers stand
-    #[arg(value_hint = ValueHint::FilePath)]
+    #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
     pub(crate) pattern: String,
     /// Frames that there should be: 1-10 or 1-3,5,7-20:2 [default: first to last]
     #[arg(long, value_name = "LIST", value_parser = frame_list, allow_hyphen_values = true)]
@@ -37,18 +37,17 @@ pub(crate) struct VerifyArgs {
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) sheet: Option<PathBuf>,
     /// Show every Nth frame on the sheet
-    #[arg(long, value_name = "N", default_value = "1", requires = "sheet", allow_negative_numbers = true)]
-    pub(crate) every: NonZeroU64,
+    #[arg(long, value_name = "N", default_value = "1", value_parser = every, requires = "sheet", allow_negative_numbers = true)]
+    pub(crate) every: usize,
     /// Replace an existing sheet
     #[arg(short = 'y', long, requires = "sheet")]
     pub(crate) overwrite: bool,
-    /// Memory for decoded frames: 500M, 8G or 50% [default: 75% of free]
-    #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
-    pub(crate) memory: Option<MemorySize>,
+    #[command(flatten)]
+    pub(crate) limits: LimitArgs,
     /// How to tell what is going on, on standard error
-    #[arg(long, value_enum, value_name = "STYLE", default_value_t = ProgressStyle::Auto)]
+    #[arg(long, value_enum, value_name = "STYLE", default_value_t = ProgressStyle::Auto, help_heading = "Run")]
     pub(crate) progress: ProgressStyle,
     /// Print the same as JSON
-    #[arg(long)]
+    #[arg(long, help_heading = "Run")]
     pub(crate) json: bool,
 }

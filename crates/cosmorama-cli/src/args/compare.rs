@@ -1,16 +1,11 @@
-mod filters;
-
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum, ValueHint};
 use cosmorama_spec::{MemorySize, TransferName};
 
-pub(super) use filters::FILTERS_EXAMPLES;
-pub(crate) use filters::FiltersArgs;
-
-use super::parse::listed;
-use super::parse::number::{distance, factor, finite};
 use super::with_examples;
+use crate::parse::listed;
+use crate::parse::number::{distance, factor, finite};
 
 /// Example commands in its help.
 pub(super) const EXAMPLES: [&str; 3] = [
