@@ -1,8 +1,9 @@
+use std::fmt::Debug;
 use std::path::Path;
 use std::sync::Arc;
 
 use cosmorama::raster::{Channels, Depth, Primaries, Rgba, Transfer};
-use cosmorama_io::{Format, Header, Layers, Metadata};
+use cosmorama_io::{Format, Header, Metadata};
 use cosmorama_spec::{Missing, TransferName};
 
 use super::carried::carried;
@@ -83,6 +84,12 @@ impl InputTransfer {
 }
 
 impl Light {
+    /// Returns all that decides on the samples of a file, for comparisons.
+    pub(crate) fn definition(&self) -> impl Debug {
+        let Self { input, channels, depth, transfer, background, working, .. } = self;
+        (input, channels, depth, transfer, background, working)
+    }
+
     /// Resolves the settings for an input. Outputs show the backdrop behind it, too, if there is one.
     pub(crate) fn resolve(
         args: &Conversion,
@@ -358,25 +365,17 @@ fn metadata(
         remarks: args.light.iter().flat_map(LightSettings::remarks).chain(args.remarks.iter().cloned()).collect(),
         transfer: Some(transfer.clone()),
         icc: icc.filter(|_| keep),
-        profile_fault: None,
-        rescaled: None,
         envmap: target.envmap,
         panorama: target.panorama,
-        complaints: Vec::new(),
-        notes: Vec::new(),
-        other_channels: Vec::new(),
-        layers: Layers::default(),
         primaries: is_named.then_some(working.primaries),
         white_luminance: working
             .white
             .filter(|_| target.format == Format::Exr && !matches!(transfer, Transfer::Pq | Transfer::Hlg))
             .map(|white| white as f32),
-        orientation: None,
-        software: Some(concat!("cosmorama ", env!("CARGO_PKG_VERSION")).to_owned()),
-        pose: None,
         carried: match first.filter(|_| !args.strip) {
             Some(first) => carried(first, target.format, warnings),
             None => Arc::default(),
         },
+        ..Metadata::default()
     }
 }

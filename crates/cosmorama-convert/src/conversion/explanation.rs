@@ -90,7 +90,7 @@ impl ExplanationSettings {
         let result = threads(self.limits.threads)
             .and_then(|pool| Ok((pool.install(|| self.resolve(&mut diagnostics))?, pool)))
             .map(|((input, pictures, movement, filter), pool)| Explanation {
-                files: files_read(&input, &self.geometry),
+                files: files_read((&input, None), &self.geometry),
                 memory: MemoryBudget::new(self.limits.memory),
                 has_input: self.input.is_some(),
                 input,
@@ -149,7 +149,6 @@ impl ExplanationSettings {
         let turned = movement.views(&targets, &movement.pose(time(first)))?;
         pictures.iter_mut().zip(turned).for_each(|(picture, target)| picture.view = target.view);
         input.frames = frames;
-        input.beside.extend(geometry.pose_files());
         Ok(Some((movement, targets)))
     }
 

@@ -170,7 +170,7 @@ impl Run<'_> {
         drop(light);
         let write = || {
             let outputs = frame.files.par_iter().zip(pictures);
-            let origin = job.outputs.origin(&*job.files, &job.input, frame.frame);
+            let origin = job.origin_of(frame.frame)?;
             let said = (carried.as_ref(), origin.as_deref());
             let save = |path, levels| engine.writer().save_frame(said, levels, path, Threads::All);
             outputs.try_for_each(|((_, path), levels)| save(path, levels))

@@ -107,7 +107,7 @@ impl WorldLight {
                 job.outputs.frames[0].frame.unwrap_or_default()
             )));
         }
-        let files = files_read(&job.input, &settings.geometry);
+        let files = files_read((&job.input, None), &settings.geometry);
         Ok(Self { settings, job, pool, files })
     }
 

@@ -121,7 +121,7 @@ impl<'a> Sequence<'a> {
             for (place, pictures) in interpolated.into_iter().chain([(place, pictures)]) {
                 queues.finish_written(written - 1, watcher)?;
                 let frame = &frames[place - 1];
-                let being_written = self.have_written((scope, failure, place), frame, (pictures, light.carried()));
+                let being_written = self.have_written((scope, failure, place), frame, (pictures, light.carried()))?;
                 queues.written.push_back((frame, being_written));
             }
         }
@@ -144,12 +144,12 @@ impl<'a> Sequence<'a> {
         turn: Turn<'_, 's>,
         frame: &'a FrameOutputs,
         (pictures, carried): (Vec<Levels>, Option<Arc<Carried>>),
-    ) -> Results<()>
+    ) -> Result<Results<()>>
     where
         'a: 's,
     {
         let Self { job, engine, stages, .. } = *self;
-        let origin = job.outputs.origin(&*job.files, &job.input, frame.frame).map(Arc::<str>::from);
+        let origin = job.origin_of(frame.frame)?.map(Arc::<str>::from);
         let write = |((_, path), levels): (&'a (usize, std::path::PathBuf), Levels)| {
             let path: &'a Path = path;
             let (carried, origin) = (carried.clone(), origin.clone());
@@ -159,7 +159,7 @@ impl<'a> Sequence<'a> {
             };
             task(turn, move || stages.beside(Stage::Encode, save))
         };
-        frame.files.iter().zip(pictures).map(write).collect()
+        Ok(frame.files.iter().zip(pictures).map(write).collect())
     }
 }
 

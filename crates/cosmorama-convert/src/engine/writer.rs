@@ -85,9 +85,7 @@ impl Writer {
         if let Some(carried) = carried {
             options.metadata.carried = Arc::clone(carried);
         }
-        if let Some(origin) = origin {
-            options.metadata = options.metadata.with_origin(origin);
-        }
+        options.metadata.origin = origin.map(str::to_owned);
         self.save_with(&options, levels, path, threads)
     }
 

@@ -154,7 +154,6 @@ impl FoundBackdrop {
             Some(found) => {
                 let own = memory.beside_frame(&input, front.target);
                 let job = found.resolve(&Front { memory: own, ..*front }, warnings)?;
-                input.beside.extend(job.input.files());
                 let (job, left) = job.share(memory);
                 memory = left;
                 Some(Box::new(job))
@@ -177,6 +176,7 @@ impl FoundBackdrop {
             light,
             layers: LayerPlan::default(),
             outputs: Outputs::none(&input),
+            origin: None,
             coverage: Coverage::Complete,
             lighting: None,
             formula: content.formula(),

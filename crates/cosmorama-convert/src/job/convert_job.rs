@@ -24,6 +24,7 @@ use crate::input::Input;
 use crate::input::spec_files::st_map::settled;
 use crate::job::Outputs;
 use crate::job::coverage::{Coverage, whole_worlds};
+use crate::job::origin::Origin;
 use crate::settings::{BlurMethod, Conversion, GeometrySettings, LightSettings};
 use crate::source::{Access, ChosenFiles, DecodedPicture, Files, MemoryBudget};
 use crate::target::{Movement, Target, TargetView, name_of_level, of_light, shape_warning, time, whole_chain};
@@ -50,6 +51,8 @@ pub(crate) struct ConvertJob {
     pub(crate) layers: LayerPlan,
     /// Outputs to make, by frame.
     pub(crate) outputs: Outputs,
+    /// Origin of its frames; `None` where outputs are to say nothing of it.
+    pub(super) origin: Option<Origin>,
     /// Treatment of pixels that no view covers.
     pub(crate) coverage: Coverage,
     /// Map of light that is made instead of a picture.
@@ -111,7 +114,6 @@ fn move_camera(
         return Ok(None);
     };
     input.frames = frames;
-    input.beside.extend(geometry.pose_files());
     Ok(Some(movement))
 }
 
@@ -183,7 +185,6 @@ impl ConvertJob {
                 let (movement, filter) = (movement.as_ref(), filter);
                 let own = memory.beside_frame(&input, &target);
                 let job = found.resolve(&Front { frames, target: &target, movement, filter, memory: own }, warnings)?;
-                input.beside.extend(job.input.files());
                 Some(job)
             }
         };
@@ -212,16 +213,9 @@ impl ConvertJob {
         content.settle(settings, &target, &mut light, warnings)?;
         memory.check_outputs(&target)?;
         let outputs = match purpose {
-            Purpose::Pictures => Outputs::plan(settings, &input, &target, (&light, &layers), memory)?,
+            Purpose::Pictures => Outputs::plan(settings, (&input, backdrop.as_deref()), &target)?,
             Purpose::Light => Outputs::none(&input),
         };
-        warnings.extend(outputs.warning());
-        if outputs.frames.len() > 1 && lighting.as_ref().is_some_and(LightSettings::fits) {
-            return Err(usage(format!(
-                "{SCALE} auto would scale each of {} frames by its own factor; give one for all, as in {SCALE} 0.25",
-                outputs.frames.len()
-            )));
-        }
         let missing = match settings.missing {
             _ if backdrop.is_some() => in_front,
             Missing::Fill(colour) => Missing::Fill(light.colour(colour)?),
@@ -238,6 +232,7 @@ impl ConvertJob {
             light,
             layers,
             outputs,
+            origin: None,
             coverage: Coverage::Complete,
             lighting,
             formula: None,
@@ -247,6 +242,9 @@ impl ConvertJob {
             memory,
             decoded,
         };
+        job.leave_finished(settings, purpose)?;
+        warnings.extend(job.outputs.warning());
+        job.check_scale()?;
         if content.has_files() {
             let first = job.input.frames.first().map_or_else(Vec::new, |frame| job.input.paths(*frame));
             let files = Arc::clone(&job.files);
@@ -256,6 +254,34 @@ impl ConvertJob {
         job.find_blur(content, warnings)?;
         content.check_last(settings, format, job.light.depth, warnings)?;
         Ok(job)
+    }
+
+    /// Leaves out what an earlier run has finished, where that is asked for; else refuses to replace it unasked.
+    fn leave_finished(&mut self, settings: &Conversion, purpose: Purpose) -> Result<()> {
+        if purpose == Purpose::Light {
+            return Ok(());
+        }
+        self.origin = (!settings.strip).then(|| Origin::of(self, settings));
+        let mut outputs = std::mem::take(&mut self.outputs);
+        let left = outputs.leave_finished(settings.existing, self);
+        self.outputs = outputs;
+        left
+    }
+
+    /// Returns words about how the files of a frame are made, which go into them.
+    pub(crate) fn origin_of(&self, frame: Option<u64>) -> Result<Option<String>> {
+        self.origin.as_ref().map_or(Ok(None), |origin| origin.of_frame(self, frame))
+    }
+
+    /// Refuses a scale that each frame would have of its own.
+    fn check_scale(&self) -> Result<()> {
+        let frames = self.outputs.frames.len();
+        if frames > 1 && self.lighting.as_ref().is_some_and(LightSettings::fits) {
+            return Err(usage(format!(
+                "{SCALE} auto would scale each of {frames} frames by its own factor; give one for all, as in {SCALE} 0.25"
+            )));
+        }
+        Ok(())
     }
 
     /// Checks that the input covers the output in these frames, and that memory suffices.

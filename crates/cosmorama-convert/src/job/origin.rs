@@ -1,88 +1,140 @@
-use std::collections::BTreeSet;
+//! Words about how a frame is made, which its file holds: digests of what is computed, not of how it was asked for. Angles,
+//! windows and frames that come to the same give the same words.
+
 use std::fmt::Debug;
 use std::io::{Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
+use cosmorama::camera::{PixelPoint, View};
+use cosmorama::motion::Shutter;
 use xxhash_rust::xxh3::xxh3_64;
 
-use crate::colour::Light;
-use crate::input::Input;
-use crate::settings::{Conversion, GeometrySettings};
+use crate::diagnostic::Result;
+use crate::job::ConvertJob;
+use crate::settings::Conversion;
 use crate::source::Files;
+use crate::target::time;
 
-/// Digests of the settings by which frames are made. With the digest of its inputs, they are the origin of a frame, which goes
-/// into its file.
+/// What all frames of a run share: the program's version, with digests of its settings.
 #[derive(Clone, Debug)]
 pub(crate) struct Origin {
-    geometry: u32,
-    filter: u32,
-    colour: u32,
-    /// Files that are read for every frame, beside those of views.
-    beside: BTreeSet<PathBuf>,
+    shared: String,
+    /// Files that the output's projection names.
+    named: Vec<PathBuf>,
 }
 
-/// Number of bytes, from the beginning and from the end of a file, that are looked at. Pictures that differ differ there, since
-/// they are compressed, or in length.
-const ENDS: u64 = 1 << 16;
+/// Parts of a file that are looked at: its whole length divided evenly, so that they also meet pictures without compression.
+const PARTS: u64 = 32;
+
+/// Bytes of each part.
+const PART: u64 = 4096;
+
+/// Places across a view, and down, at which its directions are compared.
+const LATTICE: usize = 7;
+
+/// Fineness of these directions: far below any pixel, and above what computers of different makes differ by.
+const FINENESS: f64 = 1e9;
 
 impl Origin {
-    pub(crate) fn of(settings: &Conversion, light: &Light) -> Self {
-        let GeometrySettings { filter, kernel, anti_ringing, .. } = &settings.geometry;
-        let GeometrySettings { from, to, size, orientation, camera, in_path, blur, .. } = &settings.geometry;
-        let Conversion { in_transfer, in_primaries, ignore_profile, ocio, part, channels, layers, missing, .. } =
-            settings;
-        let Conversion { backdrop, opacity, quality, strip, light: lobes, st_map, mips, remarks, .. } = settings;
-        let named = [from, to].into_iter().flatten().flat_map(|spec| spec.files.iter().cloned());
+    pub(crate) fn of(job: &ConvertJob, settings: &Conversion) -> Self {
+        let Conversion { in_primaries, ignore_profile, ocio, part, channels, layers, .. } = settings;
+        let Conversion { quality, mips, remarks, st_map, .. } = settings;
+        let named = settings.geometry.to.iter().flat_map(|spec| spec.files.iter().cloned());
+        let all = || job.layers();
+        let inputs = all().flat_map(|job| job.input.present());
+        let views: Vec<_> = inputs.map(|(input, _, view)| (seen(view), input.part, input.blend)).collect();
+        let still = all().filter(|job| job.movement.is_none()).flat_map(|job| &job.target.views);
+        let still: Vec<_> = still.map(|target| seen(&target.view)).collect();
+        let files: Vec<_> = job.target.files.iter().map(|file| file.levels().collect::<Vec<_>>()).collect();
+        let shown: Vec<_> = job.target.views.iter().map(|view| (&view.name, view.eye, view.level)).collect();
+        let geometry = digest(&(views, still, files, shown, job.target.envmap, job.target.panorama, st_map));
+        let blur = job.movement.as_ref().and_then(|movement| movement.blur);
+        let filter = digest(&(job.filter, &job.lighting, blur.map(|blur| (blur.method, blur.shutter.curve))));
+        let lights: Vec<_> = all().map(|job| (job.light.definition(), job.opacity, job.missing)).collect();
+        let asked = (in_primaries, ignore_profile, ocio, part, channels, layers);
+        let colour = digest(&(lights, asked, (quality, mips, remarks)));
+        let version = env!("CARGO_PKG_VERSION");
         Self {
-            geometry: digest(&(from, to, size, orientation, camera, in_path, blur, st_map)),
-            filter: digest(&(filter, kernel, anti_ringing, lobes)),
-            // Not how samples are packed, which changes none.
-            colour: digest(&(
-                (light.channels, light.depth, &light.transfer, light.background, &light.working),
-                (in_transfer, in_primaries, ignore_profile, ocio, part, channels, layers, missing),
-                (backdrop, opacity, quality, strip, mips, remarks),
-            )),
-            beside: named.chain(settings.geometry.pose_files()).collect(),
+            shared: format!("{version}, geometry {geometry:08x}, filter {filter:08x}, colour {colour:08x}"),
+            named: named.collect(),
         }
     }
 
     /// Returns the origin of a frame, in words; `None` for a picture that is no frame.
-    pub(crate) fn of_frame(&self, files: &dyn Files, input: &Input, frame: Option<u64>) -> Option<String> {
-        let frame = frame?;
-        let views = input.present().map(|(view, ..)| view.files.path(Some(frame)));
-        let read: BTreeSet<PathBuf> = views.chain(self.beside.iter().cloned()).collect();
-        let ends: Vec<Option<u64>> = read.iter().map(|path| ends(files, path)).collect();
-        let Self { geometry, filter, colour, .. } = self;
-        let input = digest(&ends);
-        Some(format!("geometry {geometry:08x}, filter {filter:08x}, colour {colour:08x}, input {input:08x}"))
+    ///
+    /// # Errors
+    /// When a view cannot be posed so.
+    pub(crate) fn of_frame(&self, job: &ConvertJob, frame: Option<u64>) -> Result<Option<String>> {
+        let Some(number) = frame else { return Ok(None) };
+        let times = |shutter: Shutter| shutter.division(time(number)).to_vec();
+        let mut poses = Vec::new();
+        for layer in job.layers() {
+            let Some(movement) = &layer.movement else { continue };
+            let exposed = movement.blur.map_or_else(Vec::new, |blur| times(blur.shutter));
+            let at = [&[time(number)], &exposed[..]].concat();
+            let views = movement.views_at(&layer.target.views, &at)?;
+            poses.extend(views.iter().flatten().map(|target| seen(&target.view)));
+        }
+        let formulas: Vec<_> = job.layers().map(|layer| layer.formula).collect();
+        let place = job.place(frame);
+        let read_by = |layer: &ConvertJob| -> Vec<Option<u64>> {
+            let paths = layer.input.paths(layer.input.frames[place]);
+            paths.iter().chain(&layer.input.beside).map(|path| sample(&*layer.files, path)).collect()
+        };
+        let named: Vec<_> = self.named.iter().map(|path| sample(&*job.files, path)).collect();
+        let read = (job.layers().map(read_by).collect::<Vec<_>>(), named);
+        let (pose, input) = (digest(&poses), digest(&(formulas, read)));
+        Ok(Some(format!("{}{POSE}{pose:08x}, input {input:08x}", self.shared)))
     }
 }
 
-/// Returns the part of an origin that is of settings alone, which frames of one run share.
+/// Beginning of the part of an origin that is each frame's own.
+const POSE: &str = ", pose ";
+
+/// Returns the part of an origin that frames of one run share.
 pub(crate) fn settings_of(origin: &str) -> Option<&str> {
-    Some(origin.rsplit_once(", input ")?.0)
+    Some(origin.split_once(POSE)?.0)
 }
 
-/// Returns the names of the parts in which two origins differ.
+/// Returns the names of the parts in which two origins differ; none if they are of different versions of the program, which
+/// may compute alike.
 pub(crate) fn differences(found: &str, expected: &str) -> Vec<String> {
-    let parts = |origin: &str| -> Vec<String> { origin.split(", ").map(str::to_owned).collect() };
-    let (found, expected) = (parts(found), parts(expected));
+    let (found, expected): (Vec<&str>, Vec<&str>) = (found.split(", ").collect(), expected.split(", ").collect());
+    if found.first() != expected.first() {
+        return Vec::new();
+    }
     let differ = expected.iter().filter(|part| !found.contains(part));
     differ.filter_map(|part| Some(part.split_once(' ')?.0.to_owned())).collect()
+}
+
+/// Returns the size of a view, its limits, and the directions at a lattice of its pixels.
+fn seen(view: &View) -> impl Debug + use<> {
+    let (width, height) = (view.width(), view.height());
+    let at = |k: usize, length: usize| length as f64 * (k as f64 + 0.5) / LATTICE as f64;
+    let rounded = |part: f64| (part * FINENESS).round() as i64;
+    let direction = |k: usize| {
+        let pixel = PixelPoint::new(at(k % LATTICE, width), at(k / LATTICE, height));
+        let vector = view.direction(pixel)?.vector();
+        Some([vector.x, vector.y, vector.z].map(rounded))
+    };
+    let directions: Vec<Option<[i64; 3]>> = (0..LATTICE * LATTICE).map(direction).collect();
+    (width, height, view.stop, directions)
 }
 
 fn digest(value: &impl Debug) -> u32 {
     xxh3_64(format!("{value:?}").as_bytes()) as u32
 }
 
-/// Returns a digest of a file's length and of its ends; `None` if it cannot be read.
-fn ends(files: &dyn Files, path: &Path) -> Option<u64> {
+/// Returns a digest of a file's length and of parts of it; `None` if it cannot be read.
+fn sample(files: &dyn Files, path: &Path) -> Option<u64> {
     let mut file = files.open(path).ok()?;
     let length = file.seek(SeekFrom::End(0)).ok()?;
     let mut bytes = length.to_le_bytes().to_vec();
-    for start in [0, length.saturating_sub(ENDS)] {
-        file.seek(SeekFrom::Start(start)).ok()?;
-        (&mut file).take(ENDS).read_to_end(&mut bytes).ok()?;
+    let last = length.saturating_sub(PART);
+    let count = PARTS.min(length.div_ceil(PART)).max(1);
+    for part in 0..count {
+        file.seek(SeekFrom::Start(last * part / (count - 1).max(1))).ok()?;
+        (&mut file).take(PART).read_to_end(&mut bytes).ok()?;
     }
     Some(xxh3_64(&bytes))
 }
@@ -94,23 +146,34 @@ mod tests {
 
     #[test]
     fn what_differs_is_named() {
-        let (one, other) = ("geometry 1, filter 2, colour 3, input 4", "geometry 1, filter 5, colour 3, input 6");
+        let one = "0.1.0, geometry 1, filter 2, colour 3, pose 5, input 4";
+        let other = "0.1.0, geometry 1, filter 5, colour 3, pose 5, input 6";
         assert_eq!(differences(one, one), Vec::<String>::new());
         assert_eq!(differences(one, other), ["filter", "input"]);
-        assert_eq!(differences("", one), ["geometry", "filter", "colour", "input"]);
-        assert_eq!((settings_of(one), settings_of("")), (Some("geometry 1, filter 2, colour 3"), None));
+        assert_eq!(differences("0.1.0", one), ["geometry", "filter", "colour", "pose", "input"]);
+        assert_eq!(differences(&other.replace("0.1.0", "0.2.0"), one), Vec::<String>::new());
+        assert_eq!((settings_of(one), settings_of("")), (Some("0.1.0, geometry 1, filter 2, colour 3"), None));
     }
 
     #[test]
-    fn files_are_told_apart_by_length_and_ends() {
-        let mut files = InMemory::default();
-        let long = vec![7_u8; 1 << 18];
-        files.insert("long", long.clone());
-        files.insert("longer", [&long[..], &[7]].concat());
-        files.insert("other", [&long[1..], &[8]].concat());
-        files.insert("same", long);
-        let of = |name: &str| ends(&files, Path::new(name));
-        assert!(of("long").is_some() && of("long") == of("same"));
-        assert!(of("long") != of("longer") && of("long") != of("other") && of("none").is_none());
+    fn files_are_told_apart_by_length_and_by_bytes_all_over() {
+        let of = |bytes: &[u8]| {
+            let mut files = InMemory::default();
+            files.insert("it", bytes.to_vec());
+            sample(&files, Path::new("it"))
+        };
+        for length in [0, 1, 4095, 4096, 4097, 20_000, 131_072, 131_073, 1 << 20] {
+            let bytes = vec![7_u8; length];
+            assert!(of(&bytes).is_some() && of(&bytes) == of(&bytes), "{length}");
+            assert_ne!(of(&bytes), of(&[&bytes[..], &[7]].concat()), "{length}");
+            // A block of a 24th of the file is met wherever it is; up to 32 parts, every byte is.
+            let block = if length as u64 <= PARTS * PART { 1 } else { length / 24 };
+            for start in (0..length.saturating_sub(block - 1)).step_by(block.max(length / 500).max(1)) {
+                let mut other = bytes.clone();
+                other[start..start + block].fill(8);
+                assert_ne!(of(&bytes), of(&other), "{block} at {start} of {length}");
+            }
+        }
+        assert_eq!(sample(&InMemory::default(), Path::new("none")), None);
     }
 }

@@ -1,15 +1,13 @@
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
-use cosmorama_io::pending::{NewFolders, Pending, Unfinished, place};
+use cosmorama_io::pending::{NewFolders, Pending, place};
 
-use crate::colour::{LayerPlan, Light};
 use crate::diagnostic::{Code, Diagnostic, FRAMES, OVERWRITE, RESUME, Result, bail, failure, usage, usage_as};
 use crate::input::Input;
-use crate::job::Remade;
-use crate::job::origin::Origin;
+use crate::job::{ConvertJob, Remade};
 use crate::settings::{Conversion, Existing, GeometrySettings};
-use crate::source::{Files, MemoryBudget, ViewFiles};
+use crate::source::ViewFiles;
 use crate::target::{Target, TargetFile};
 
 /// A frame with its outputs that are still to be made.
@@ -21,6 +19,7 @@ pub(crate) struct FrameOutputs {
 }
 
 /// Outputs of a conversion.
+#[derive(Default)]
 pub(crate) struct Outputs {
     /// Frames with outputs to make.
     pub(crate) frames: Vec<FrameOutputs>,
@@ -28,8 +27,6 @@ pub(crate) struct Outputs {
     pub(crate) skipped: usize,
     /// Outputs that are made again because something else is in their place.
     pub(crate) remade: Vec<Remade>,
-    /// Settings by which they are made; `None` where there are no outputs.
-    origin: Option<Origin>,
     /// Folders that were created for outputs; they are removed with this value if they stay empty.
     _folders: NewFolders,
 }
@@ -50,27 +47,20 @@ impl Outputs {
         Remade::warning(&self.remade)
     }
 
-    /// Returns words about how the files of a frame are made, which go into them.
-    pub(crate) fn origin(&self, files: &dyn Files, input: &Input, frame: Option<u64>) -> Option<String> {
-        self.origin.as_ref()?.of_frame(files, input, frame)
-    }
-
     /// Returns the frames of an input whose light is read, without any output.
     pub(crate) fn none(input: &Input) -> Self {
         let frames = input.frames.iter().map(|frame| FrameOutputs { frame: *frame, files: Vec::new() }).collect();
-        Self { frames, skipped: 0, remade: Vec::new(), origin: None, _folders: NewFolders::new(&Unfinished::default()) }
+        Self { frames, ..Self::default() }
     }
 
-    /// Plans the outputs of all frames, and checks them against the inputs and existing files.
+    /// Plans the outputs of all frames, and checks them against the inputs, with what lies behind.
     pub(crate) fn plan(
         args: &Conversion,
-        input: &Input,
+        (input, behind): (&Input, Option<&ConvertJob>),
         target: &Target,
-        (light, layers): (&Light, &LayerPlan),
-        memory: MemoryBudget,
     ) -> Result<Self> {
         check_frame_markers(args, input, target)?;
-        let inputs = files_read(input, &args.geometry);
+        let inputs = files_read((input, behind), &args.geometry);
         let (mut frames, mut made) = (Vec::new(), NewFolders::new(&args.unfinished));
         let (mut folders, mut places) = (HashSet::new(), HashMap::new());
         for &frame in &input.frames {
@@ -100,18 +90,20 @@ impl Outputs {
             }
             frames.push(FrameOutputs { frame, files });
         }
-        let (mut remade, origin) = (Vec::new(), Origin::of(args, light));
-        let all: usize = frames.iter().map(|frame| frame.files.len()).sum();
-        if args.existing == Existing::Resume {
-            let of = |frame| origin.of_frame(&*args.files, input, frame);
-            remade = Remade::find(&mut frames, &target.files, (light, layers, &of), memory)?;
-        } else if args.existing == Existing::Refuse {
-            let files = frames.iter().flat_map(|frame| frame.files.iter().map(|(_, path)| path.as_path()));
-            refuse_existing_or(files, &format!(", or keep what is there with {RESUME}"))?;
+        Ok(Self { frames, _folders: made, ..Self::default() })
+    }
+
+    /// Leaves out the outputs that a job need not make again, or refuses to replace them.
+    pub(crate) fn leave_finished(&mut self, existing: Existing, job: &ConvertJob) -> Result<()> {
+        let all = self.paths().count();
+        match existing {
+            Existing::Resume => self.remade = Remade::find(&mut self.frames, job)?,
+            Existing::Refuse => refuse_existing_or(self.paths(), &format!(", or keep what is there with {RESUME}"))?,
+            Existing::Replace => {}
         }
-        frames.retain(|frame| !frame.files.is_empty());
-        let left: usize = frames.iter().map(|frame| frame.files.len()).sum();
-        Ok(Self { frames, skipped: all - left, remade, origin: Some(origin), _folders: made })
+        self.frames.retain(|frame| !frame.files.is_empty());
+        self.skipped = all - self.paths().count();
+        Ok(())
     }
 }
 
@@ -150,10 +142,15 @@ fn check_frame_markers(args: &Conversion, input: &Input, target: &Target) -> Res
     Ok(())
 }
 
-/// Returns every file that a job reads, including those that its SPECs name.
-pub(crate) fn files_read(input: &Input, geometry: &GeometrySettings) -> HashSet<PathBuf> {
-    let named = [&geometry.from, &geometry.to].into_iter().flatten().flat_map(|spec| spec.files.iter().cloned());
-    input.files().chain(named).map(|path| real_path(&path)).collect()
+/// Returns every file that a job reads: of its input, of what lies behind, and those that its SPECs and paths name.
+pub(crate) fn files_read(
+    (input, behind): (&Input, Option<&ConvertJob>),
+    geometry: &GeometrySettings,
+) -> HashSet<PathBuf> {
+    let specs = [&geometry.from, &geometry.to].into_iter().flatten();
+    let named = specs.flat_map(|spec| spec.files.iter().cloned()).chain(geometry.pose_files());
+    let behind = behind.into_iter().flat_map(ConvertJob::layers).flat_map(|job| job.input.files());
+    input.files().chain(behind).chain(named).map(|path| real_path(&path)).collect()
 }
 
 /// Checks that an output does not replace one of its own inputs.

@@ -6,9 +6,8 @@ use rayon::prelude::*;
 
 use crate::colour::{LayerPlan, Light};
 use crate::diagnostic::{Code, ConvertError, Diagnostic, OVERWRITE, RESUME, Result, failed_as};
-use crate::job::FrameOutputs;
 use crate::job::origin::differences;
-use crate::source::MemoryBudget;
+use crate::job::{ConvertJob, FrameOutputs};
 use crate::target::TargetFile;
 
 /// An output whose place holds something else than `--resume` expects.
@@ -41,27 +40,19 @@ struct Expected<'a> {
     origin: Option<&'a str>,
 }
 
-/// Function that returns words about how a frame is made.
-type OriginOf<'a> = &'a (dyn Fn(Option<u64>) -> Option<String> + Sync);
-
 impl Remade {
     /// Removes from each frame the outputs that are complete. Returns the others whose places hold something else.
     ///
     /// # Errors
     /// When an output was made by other settings, or from other inputs.
-    pub(crate) fn find(
-        frames: &mut [FrameOutputs],
-        targets: &[TargetFile],
-        (light, layers, origin): (&Light, &LayerPlan, OriginOf<'_>),
-        memory: MemoryBudget,
-    ) -> Result<Vec<Self>> {
+    pub(crate) fn find(frames: &mut [FrameOutputs], job: &ConvertJob) -> Result<Vec<Self>> {
         // As many outputs at once as fit into memory when decoded.
-        let bytes = |size| light.file_bytes(size).saturating_add(layers.file_bytes(size));
-        let largest = targets.iter().map(|file| bytes(file.sheet.size)).max().unwrap_or(0);
-        let at_once = (memory.bytes / largest.max(1)).clamp(1, frames.len().max(1) as u64) as usize;
+        let bytes = |size| job.light.file_bytes(size).saturating_add(job.layers.file_bytes(size));
+        let largest = job.target.files.iter().map(|file| bytes(file.sheet.size)).max().unwrap_or(0);
+        let at_once = (job.memory.bytes / largest.max(1)).clamp(1, frames.len().max(1) as u64) as usize;
         let mut all = Vec::new();
         for some in frames.chunks_mut(at_once) {
-            let of = |frame: &mut FrameOutputs| Self::of(frame, targets, (light, layers, origin));
+            let of = |frame: &mut FrameOutputs| Self::of(frame, job);
             // All of them, so that the first in order is told of, whichever thread is the fastest.
             let remade: Vec<Result<Vec<Self>>> = some.par_iter_mut().map(of).collect();
             for of_frame in remade {
@@ -71,17 +62,14 @@ impl Remade {
         Ok(all)
     }
 
-    fn of(
-        frame: &mut FrameOutputs,
-        targets: &[TargetFile],
-        (light, layers, origin): (&Light, &LayerPlan, OriginOf<'_>),
-    ) -> Result<Vec<Self>> {
+    fn of(frame: &mut FrameOutputs, job: &ConvertJob) -> Result<Vec<Self>> {
         // What reads inputs, so only where there is something to compare with.
         let exists = frame.files.iter().any(|(_, path)| path.exists());
-        let origin = if exists { origin(frame.frame) } else { None };
+        let origin = if exists { job.origin_of(frame.frame)? } else { None };
+        let (light, layers) = (&job.light, &job.layers);
         let (mut remade, mut left) = (Vec::new(), Vec::new());
         for (index, path) in std::mem::take(&mut frame.files) {
-            let expected = Expected { target: &targets[index], light, layers, origin: origin.as_deref() };
+            let expected = Expected { target: &job.target.files[index], light, layers, origin: origin.as_deref() };
             match Found::at(&path, expected) {
                 Found::Nothing => left.push((index, path)),
                 Found::Complete => {}
@@ -128,6 +116,9 @@ impl Found {
             Ok(header) => header,
             Err(error) => return Self::unreadable(error),
         };
+        if let Some(parts) = Self::made_otherwise(&header.metadata, expected) {
+            return Self::Otherwise(parts);
+        }
         let size = |(width, height): &(usize, usize)| format!("{width}x{height}");
         let format = Format::from_extension(path).unwrap_or(header.format);
         let told: Vec<String> = [
@@ -148,19 +139,16 @@ impl Found {
         let limits = Limits::memory(bytes);
         let pool = FramePool::default();
         match open(path).and_then(|file| read_chosen(file, path, (&limits, &pool), &choice)) {
-            Ok(file) => Self::by(&file.metadata, expected),
+            Ok(_) => Self::Complete,
             Err(error) => Self::unreadable(error),
         }
     }
 
-    /// Judges a whole picture by what its file says of how it was made. One that says nothing may be of another program, or of
-    /// a format that has no room for it: it counts as complete.
-    fn by(metadata: &Metadata, Expected { origin, .. }: Expected<'_>) -> Self {
-        let parts = metadata.origin().zip(origin).map(|(found, expected)| differences(found, expected));
-        match parts {
-            Some(parts) if !parts.is_empty() => Self::Otherwise(parts),
-            _ => Self::Complete,
-        }
+    /// Returns the parts in which a picture was made otherwise, by what its file says. One that says nothing may be of another
+    /// program, or of a format that has no room for it: it is judged by its size and samples.
+    fn made_otherwise(metadata: &Metadata, Expected { origin, .. }: Expected<'_>) -> Option<Vec<String>> {
+        let parts = metadata.origin.as_deref().zip(origin).map(|(found, expected)| differences(found, expected));
+        parts.filter(|parts| !parts.is_empty())
     }
 
     fn unreadable(error: IoError) -> Self {
@@ -178,7 +166,8 @@ impl Found {
 /// Returns the error about an output that was made by other settings.
 fn otherwise(path: &Path, parts: &[String]) -> ConvertError {
     let told = parts.iter().map(|part| match part.as_str() {
-        "geometry" => "geometry (projections, size, orientation or path)",
+        "geometry" => "geometry (projections, size or orientation)",
+        "pose" => "poses (path, turn or shutter)",
         "filter" => "filter",
         "colour" => "colours, samples or layers",
         _ => "inputs",

@@ -44,7 +44,7 @@ pub(crate) struct TargetFile {
 }
 
 /// A picture of one image, or of several images laid into it.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub(crate) struct Sheet {
     /// Columns and rows.
     pub(crate) size: (usize, usize),

@@ -51,9 +51,11 @@ pub struct Metadata {
     /// Orientation by TIFF's and Exif's tag 274, 2 to 8, by which the stored pixels were turned or mirrored when the file
     /// was read; `None` for no change. Written files need none.
     pub orientation: Option<u16>,
-    /// Name of the program that wrote the file. Written files name this library, and where it was added by
-    /// [`Metadata::with_origin`], how they were made.
+    /// Name of the program that wrote the file. Written files name this library.
     pub software: Option<String>,
+    /// Words about how this library made the picture, 1 to 256 printable letters of ASCII; others are neither read nor written.
+    /// Formats that name the program hold them behind its name.
+    pub origin: Option<String>,
     /// Description of the stored codes where those that are read are others, such as "of 4 bits".
     pub rescaled: Option<String>,
     /// Pose of the camera, from the GPano metadata of a panorama.
@@ -83,6 +85,12 @@ pub enum ProfileFault {
     Damaged(String),
 }
 
+/// Returns whether words can be an origin: every format holds them.
+fn is_origin(words: &str) -> bool {
+    const MOST: usize = 256;
+    (1..=MOST).contains(&words.len()) && words.bytes().all(|letter| (b' '..=b'~').contains(&letter))
+}
+
 impl Metadata {
     /// Returns the name of the colour space as people say it, such as "Rec. 2020, PQ"; `None` where the file does not
     /// name both primaries and transfer function.
@@ -90,20 +98,18 @@ impl Metadata {
         colour_name(self.primaries.as_ref(), self.transfer.as_ref())
     }
 
-    /// Returns the metadata of a picture that says how it was made, in ASCII, where its format names the program that wrote it.
-    #[must_use]
-    pub fn with_origin(self, origin: &str) -> Self {
-        Self { software: Some(format!("{SOFTWARE} ({origin})")), ..self }
+    /// Returns the metadata of a file that names the program which wrote it.
+    pub(crate) fn by(software: Option<String>) -> Self {
+        let words =
+            software.as_deref().and_then(|name| name.strip_prefix(SOFTWARE)?.strip_prefix(" (")?.strip_suffix(')'));
+        let origin = words.filter(|words| is_origin(words)).map(str::to_owned);
+        Self { software, origin, ..Self::default() }
     }
 
-    /// Returns how a picture was made, if this library wrote it with such words.
-    pub fn origin(&self) -> Option<&str> {
-        self.software.as_deref()?.strip_prefix(SOFTWARE)?.strip_prefix(" (")?.strip_suffix(')')
-    }
-
-    /// Returns the name of the program to write.
-    pub(crate) fn software_to_write(&self) -> &str {
-        self.software.as_deref().filter(|_| self.origin().is_some()).unwrap_or(SOFTWARE)
+    /// Returns the name of the program to write, with how it made the picture.
+    pub(crate) fn software_to_write(&self) -> Cow<'static, str> {
+        let origin = self.origin.as_deref().filter(|words| is_origin(words));
+        origin.map_or(SOFTWARE.into(), |words| format!("{SOFTWARE} ({words})").into())
     }
 
     /// Returns whether the pixels are those of sRGB.

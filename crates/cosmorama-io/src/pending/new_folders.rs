@@ -8,7 +8,7 @@ use super::Unfinished;
 ///
 /// Folders that are still empty are removed when this value is dropped, and by [`Unfinished::remove_all`]. So a failed
 /// run leaves no empty folder behind.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct NewFolders {
     /// Paths, each after that of its parent.
     made: Vec<PathBuf>,

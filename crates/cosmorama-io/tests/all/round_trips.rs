@@ -340,6 +340,33 @@ fn a_tga_whose_fourth_byte_is_padding_is_opaque() {
     assert_eq!(read(&path, &Limits::default()).unwrap().image.channels(), Channels::Rgba);
 }
 
+/// Origins are found again in formats that name the program, and what cannot be one is left out.
+#[test]
+fn origins_come_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let formats = [
+        ("exr", Depth::Float),
+        ("png", Depth::Sixteen),
+        ("tif", Depth::Eight),
+        ("hdr", Depth::Float),
+        ("jpg", Depth::Eight),
+    ];
+    for (extension, depth) in formats {
+        let path = folder.path().join(format!("a.{extension}"));
+        let longest = "x".repeat(256);
+        let too_long = "x".repeat(257);
+        let words = ["0.1.0, pose 7 (a)", &longest, "", &too_long, "two\nlines", "Wörter", "\0"];
+        for (index, words) in words.into_iter().enumerate() {
+            let origin = Some(words.to_owned());
+            let metadata = Metadata { origin: origin.clone(), ..Metadata::default() };
+            write(&path, &picture(8, 4, Channels::Rgb, depth), &WriteOptions::with_metadata(metadata)).unwrap();
+            let found = read(&path, &Limits::default()).unwrap().metadata;
+            assert_eq!(found.origin, origin.filter(|_| index < 2), "{extension}: {words:?}");
+            assert!(found.software.is_none_or(|name| name.starts_with("cosmorama")), "{extension}");
+        }
+    }
+}
+
 /// Statements about pixels are found again where a format has a place for them.
 #[test]
 fn remarks_are_written() {

@@ -115,6 +115,117 @@ fn frames_by_other_settings_or_of_other_inputs_are_no_part_of_it() {
     }
 }
 
+/// Runs a command again with `--resume`; all frames that it wants are kept.
+#[track_caller]
+fn kept(bench: &Bench, args: &[&str]) {
+    let report: Value = serde_json::from_str(&bench.succeed(&[args, &["--resume", "--json"]].concat())).unwrap();
+    assert_eq!(&report["frames"], &0, "{args:?}: {report}");
+}
+
+#[test]
+fn digests_are_of_what_is_computed() {
+    let bench = Bench::new();
+    for frame in 1..=4 {
+        bench.save(&format!("sky_{frame}.png"), &picture(frame, 64, 32));
+    }
+    let args = ["convert", "sky_#.png", "out_#.png", "--to", "fulldome", "--size", "16", "--from", "equirect"];
+    let with = |more: &[&'static str]| [&args[..], more].concat();
+    bench.succeed(&with(&["--yaw", "90"]));
+    let same: [&[&str]; 4] = [&["--yaw", "450"], &["--yaw=-270"], &["--yaw", "90", "--pitch", "0"], &["--yaw", "90", "--threads", "1"]];
+    for same in same {
+        kept(&bench, &with(same));
+    }
+    kept(&bench, &["convert", "sky_#.png", "out_#.png", "--to", "fulldome:yaw=90", "--size", "16x16", "--kernel", "adaptive"]);
+    for (more, part) in [
+        (&["--yaw", "90", "--transfer", "gamma2.2"][..], "other colours"),
+        (&["--yaw", "90", "--in-transfer", "linear"], "other colours"),
+        (&["--yaw", "91"], "other geometry"),
+        (&["--yaw", "90", "--pitch", "1"], "other geometry"),
+        (&["--yaw", "90", "--size", "24"], "other geometry"),
+        (&["--yaw", "90", "--kernel", "light"], "other filter"),
+        (&["--yaw", "90", "--to", "fulldome:tilt=1"], "other geometry"),
+    ] {
+        let told = bench.fail(1, &[&with(more)[..], &["--resume"]].concat());
+        assert_says(&told, &["out_1.png was made with", part]);
+    }
+}
+
+#[test]
+fn frames_of_a_turn_over_other_frames_are_no_part_of_it() {
+    let bench = Bench::new();
+    bench.save("sky.png", &picture(1, 64, 32));
+    let args = |frames: &'static str, yaw: &'static str| {
+        let args = ["convert", "sky.png", "out_#.png", "--to", "fisheye", "--size", "16", "--from", "equirect"];
+        [&args[..], &["--frames", frames, "--yaw", yaw]].concat()
+    };
+    bench.succeed(&args("1-4", "0..90"));
+    kept(&bench, &args("1-4", "0..90"));
+    kept(&bench, &args("1-4", "360..450"));
+    // The first frame is the same; the second has moved less.
+    let told = bench.fail(1, &[&args("1-8", "0..90")[..], &["--resume"]].concat());
+    assert_says(&told, &["out_2.png was made with other poses"]);
+    // The same degrees a frame, over more of them, go on.
+    let longer = [&args("1-7", "0..180")[..], &["--resume", "--json"]].concat();
+    let report: Value = serde_json::from_str(&bench.succeed(&longer)).unwrap();
+    assert_eq!((&report["frames"], &report["skipped"]), (&3.into(), &4.into()), "{report}");
+    let told = bench.fail(1, &[&args("1-4", "0..90")[..], &["--resume", "--shutter", "180"]].concat());
+    assert_says(&told, &["out_1.png was made with other"]);
+}
+
+#[test]
+fn files_behind_and_beside_are_inputs_too() {
+    let bench = Bench::new();
+    for frame in 1..=2 {
+        bench.save(&format!("sky_{frame}.tga"), &picture(frame, 96, 48));
+        bench.save(&format!("cap_{frame}.png"), &picture(frame + 5, 32, 32));
+    }
+    let world = |spec: &str| {
+        let views = format!(
+            "[[view]]\nimage = \"sky_#.tga\"\nspec = \"equirect\"\n\
+             [[view]]\nimage = \"cap_#.png\"\nspec = \"{spec}\"\npriority = 2\n"
+        );
+        std::fs::write(bench.path("world.toml"), views).unwrap();
+    };
+    world("perspective:fov=60");
+    let args = ["convert", "world.toml", "out_#.png", "--to", "fisheye", "--size", "16"];
+    bench.succeed(&args);
+    kept(&bench, &args);
+    let resume = [&args[..], &["--resume"]].concat();
+    world("perspective:fov=61");
+    assert_says(&bench.fail(1, &resume), &["out_1.png was made with other geometry"]);
+    world("perspective:fov=60");
+    kept(&bench, &args);
+    // In the middle of a file without compression.
+    let mut bytes = bench.bytes("sky_2.tga");
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 0x40;
+    std::fs::write(bench.path("sky_2.tga"), bytes).unwrap();
+    assert_says(&bench.fail(1, &resume), &["out_2.png was made with other inputs"]);
+    // Only the frame's own files of a backdrop count.
+    let args = ["convert", "cap_#.png", "over_#.png", "--from", "perspective:fov=60", "--to", "fisheye", "--size", "16"];
+    let args = [&args[..], &["--backdrop", "sky_#.tga"]].concat();
+    bench.succeed(&args);
+    kept(&bench, &args);
+    bench.save("sky_2.tga", &picture(9, 96, 48));
+    let told = bench.fail(1, &[&args[..], &["--resume"]].concat());
+    assert_says(&told, &["over_2.png was made with other inputs"]);
+    assert!(!told.contains("over_1.png"), "{told}");
+}
+
+#[test]
+fn stripped_frames_say_nothing_of_how_they_were_made() {
+    let bench = Bench::new();
+    bench.save("sky_1.png", &picture(1, 64, 32));
+    let args = ["convert", "sky_1.png", "out_1.png", "--to", "fisheye", "--size", "16", "--from", "equirect", "--strip"];
+    let args = [&args[..], &["--frames", "1"]].concat();
+    let sequence = args.iter().map(|word| word.replace("_1.", "_#.")).collect::<Vec<_>>();
+    let sequence: Vec<&str> = sequence.iter().map(String::as_str).collect();
+    bench.succeed(&sequence);
+    let path = bench.path("out_1.png");
+    assert_eq!(cosmorama_io::probe(&path).unwrap().metadata.origin, None);
+    kept(&bench, &[&sequence[..], &["--yaw", "20"]].concat());
+}
+
 /// Makes a picture; what is made is kept when it is asked for again.
 #[track_caller]
 fn resumed(bench: &Bench, args: &[&str]) {

@@ -53,7 +53,7 @@ impl Frame {
         let found = match read(files, path, limits) {
             Ok(file) => {
                 let transfer = InputTransfer::new(&TransferName::Auto, None).of(file.image.depth(), &file.metadata);
-                let settings = file.metadata.origin().and_then(settings_of).map(str::to_owned);
+                let settings = file.metadata.origin.as_deref().and_then(settings_of).map(str::to_owned);
                 Found::Picture(Picture { settings, ..Picture::of(&file.image, &file.image.to_light(&transfer), shows) })
             }
             Err(IoError::Open { source, .. }) if source.kind() == std::io::ErrorKind::NotFound => Found::Nothing,

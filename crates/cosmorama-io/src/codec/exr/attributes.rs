@@ -113,7 +113,7 @@ pub(super) fn written(metadata: &Metadata) -> LayerAttributes {
             EnvMap::Cube => Some(EnvironmentMap::Cube),
             EnvMap::GlCube => None,
         }),
-        software_name: Some(Text::from(metadata.software_to_write())),
+        software_name: Some(Text::from(&*metadata.software_to_write())),
         white_luminance: metadata.white_luminance,
         other: other.collect(),
         ..LayerAttributes::default()

@@ -231,8 +231,7 @@ pub(super) fn announce(path: &Path, parts: &[Part], wanted: Wanted<'_>) -> Resul
             let names = selection.layers.picture.join(", ");
             format!("its channels {names} are of several sample types, and go on as one picture of floats")
         })),
-        software: own.software_name.as_ref().map(ToString::to_string),
-        ..Metadata::default()
+        ..Metadata::by(own.software_name.as_ref().map(ToString::to_string))
     };
     let metadata = colour::read(part, metadata);
     let header = Header {

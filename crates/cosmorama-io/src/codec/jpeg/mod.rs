@@ -85,7 +85,7 @@ impl Codec for Jpeg {
         encoder.write_image(samples, width.into(), height.into(), colour).map_err(|error| fail(&error))?;
         let size = (image.width(), image.height());
         let metadata = &options.metadata;
-        let exif = metadata.carried.exif.clone().or_else(|| metadata.origin().map(|_| Exif::empty()));
+        let exif = metadata.carried.exif.clone().or_else(|| metadata.origin.as_ref().map(|_| Exif::empty()));
         let exif = exif.and_then(|exif| exif.block_to_write(size, metadata));
         let exif = exif.map_or_else(Vec::new, |block| segment(b"Exif\0\0", &block));
         let packet = metadata.packet_to_write(size);
@@ -108,16 +108,16 @@ fn metadata<T: ZByteReaderTrait>(decoder: &JpegDecoder<T>, size: (usize, usize))
     let left_out = |(kind, reason)| format!("its {kind} metadata are left out: {reason}");
     carried.unread.extend(decoder.iptc().map(|block| iptc::kind(block)));
     let orientation = carried.exif.as_ref().and_then(Exif::orientation);
+    let software = carried.exif.as_ref().and_then(Exif::software);
     let size = orientation::turned(size, orientation);
     let said = decoder.xmp().map(|packet| gpano::parse(packet, size)).unwrap_or_default();
     Metadata {
         panorama: said.window,
         pose: said.pose,
         complaints: exif.into_iter().chain(xmp).map(left_out).chain(said.complaints).collect(),
-        software: carried.exif.as_ref().and_then(Exif::software),
         orientation,
         carried: Arc::new(carried),
-        ..Metadata::default()
+        ..Metadata::by(software)
     }
 }
 

@@ -117,7 +117,7 @@ pub(super) fn write(
     for TextChunk { kind, data } in metadata.carried.texts.iter().filter(|text| !is_remark(text)) {
         writer.write_chunk(ChunkType(*kind), data)?;
     }
-    if metadata.origin().is_some() {
+    if metadata.origin.is_some() {
         writer.write_chunk(tEXt, format!("Software\0{}", metadata.software_to_write()).as_bytes())?;
     }
     for remark in &metadata.remarks {

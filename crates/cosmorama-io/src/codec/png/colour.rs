@@ -23,11 +23,10 @@ pub(super) fn metadata(info: &Info<'_>, found: Found) -> Metadata {
         panorama: said.window,
         pose: said.pose,
         complaints: [said.complaints, complaints].concat(),
-        software,
         orientation,
         carried: Arc::new(carried),
         rescaled: rescaled(info),
-        ..Metadata::default()
+        ..Metadata::by(software)
     };
     colour(info, other, has_profile && info.icc_profile.is_none())
 }

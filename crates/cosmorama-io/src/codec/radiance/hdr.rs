@@ -133,7 +133,10 @@ impl Preamble {
                 }
                 // Every program that changed the exposure adds its own line.
                 Some(("EXPOSURE", factor)) => exposure *= factor.trim().parse().unwrap_or(1.0),
-                Some(("SOFTWARE", name)) => metadata.software = Some(name.trim().to_owned()),
+                Some(("SOFTWARE", name)) => {
+                    let Metadata { software, origin, .. } = Metadata::by(Some(name.trim().to_owned()));
+                    (metadata.software, metadata.origin) = (software, origin);
+                }
                 Some(("PRIMARIES", numbers)) => match primaries(numbers) {
                     Some(primaries) => metadata.primaries = Some(primaries),
                     // Lines as the skies of Poly Haven have them.

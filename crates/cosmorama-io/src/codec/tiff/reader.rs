@@ -137,10 +137,9 @@ fn metadata(decoder: &mut Decoder<Source<'_>>) -> Metadata {
     let carried::Found { carried, complaints, .. } = carried::read(decoder);
     let metadata = Metadata {
         orientation: orientation.filter(|orientation| (2..=8).contains(orientation)),
-        software,
         complaints,
         carried: Arc::new(carried),
-        ..Metadata::default()
+        ..Metadata::by(software)
     };
     metadata.with_profile(profile)
 }

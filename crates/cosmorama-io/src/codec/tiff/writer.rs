@@ -78,7 +78,7 @@ where
     let places = carried::write_directories(&mut encoder, &fields)?;
     let mut file = encoder.new_image::<Pixel<S, CHANNELS>>(width, height)?;
     let tags = file.encoder();
-    tags.write_tag(Tag::Software, how.metadata.software_to_write())?;
+    tags.write_tag(Tag::Software, &*how.metadata.software_to_write())?;
     carried::write_tags(tags, how.metadata, (&fields, &places), size)?;
     if image.channels().has_alpha() {
         let kind: u16 = if image.alpha_mode() == AlphaMode::Premultiplied { 1 } else { 2 };

@@ -138,7 +138,7 @@ impl Exif {
         }
         // Any other space is "uncalibrated"; tags of colours describe it.
         add(Tag::ColorSpace, Value::Short(vec![if metadata.is_srgb() { 1 } else { 0xffff }]));
-        add(Tag::Software, Value::Ascii(vec![metadata.software_to_write().into()]));
+        add(Tag::Software, Value::Ascii(vec![metadata.software_to_write().into_owned().into()]));
         fields
     }
 
