@@ -19,6 +19,8 @@ const STEPS: u64 = 1000;
 
 /// Progress of the work on standard error.
 pub(crate) struct Progress {
+    /// Name of a thing that is made, for one without a number.
+    noun: &'static str,
     form: Form,
     done: usize,
     total: usize,
@@ -50,18 +52,23 @@ struct Advance {
 impl Progress {
     /// Starts the progress of this number of frames.
     pub(crate) fn new(style: ProgressStyle, total: usize) -> Self {
+        Self::of("frame", style, total)
+    }
+
+    /// Starts the progress of this number of things of a name.
+    pub(crate) fn of(noun: &'static str, style: ProgressStyle, total: usize) -> Self {
         let form = match style {
-            ProgressStyle::Auto if std::io::stderr().is_terminal() => Form::Bar(bar(total)),
+            ProgressStyle::Auto if std::io::stderr().is_terminal() => Form::Bar(bar(noun, total)),
             // A single picture needs no running commentary in a log.
             ProgressStyle::Auto if total <= 1 => Form::Silent,
             ProgressStyle::Auto | ProgressStyle::Plain => Form::Plain,
-            ProgressStyle::Bar => Form::Bar(bar(total)),
+            ProgressStyle::Bar => Form::Bar(bar(noun, total)),
             ProgressStyle::Json => Form::Json,
             ProgressStyle::Openjd => Form::Openjd,
             ProgressStyle::None => Form::Silent,
         };
         let start = Instant::now();
-        Self { form, done: 0, total, start, said: start, current: None, told: 0.0 }
+        Self { noun, form, done: 0, total, start, said: start, current: None, told: 0.0 }
     }
 
     /// Reports that a fraction of some work is done. Short work is not reported.
@@ -132,7 +139,7 @@ impl Progress {
         let (done, total) = (self.done, self.total);
         let rate = done as f64 / self.start.elapsed().as_secs_f64().max(1e-9);
         let left = (total - done) as f64 / rate;
-        let number = frame.map_or_else(|| "frame".to_owned(), |frame| format!("frame {frame}"));
+        let number = frame.map_or_else(|| self.noun.to_owned(), |frame| format!("frame {frame}"));
         match &self.form {
             Form::Bar(bar) if total > 1 => bar.inc(1),
             Form::Plain => {
@@ -173,12 +180,12 @@ impl std::fmt::Display for Advance {
     }
 }
 
-fn bar(total: usize) -> ProgressBar {
+fn bar(noun: &str, total: usize) -> ProgressBar {
     let (template, length) = match total {
-        0 | 1 => ("{wide_bar} {msg}", STEPS),
-        _ => ("{wide_bar} {pos}/{len} frames, {rate} a second, {eta} left{msg}", total as u64),
+        0 | 1 => ("{wide_bar} {msg}".to_owned(), STEPS),
+        _ => (format!("{{wide_bar}} {{pos}}/{{len}} {noun}s, {{rate}} a second, {{eta}} left{{msg}}"), total as u64),
     };
-    let style = BarStyle::with_template(template).unwrap_or_else(|_| BarStyle::default_bar());
+    let style = BarStyle::with_template(&template).unwrap_or_else(|_| BarStyle::default_bar());
     let style = style.with_key("rate", |state: &ProgressState, to: &mut dyn Write| {
         let _ = to.write_str(&steady(state.per_sec()));
     });

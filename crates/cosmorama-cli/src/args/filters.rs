@@ -18,6 +18,9 @@ pub(super) const EXAMPLES: [&str; 4] = [
     "cosmorama filters sky.png --to fulldome --size 1k --truth direct.png --csv",
 ];
 
+/// Least width and height of a picture whose filters are compared.
+const LEAST: usize = 16;
+
 /// Compare filters on one conversion: error, aliasing, blur and cost of each.
 ///
 /// A table: PSNR of linear light against the reference filter and, with --truth, against a direct render; aliasing, the energy
@@ -38,7 +41,7 @@ pub(crate) struct FiltersArgs {
     #[arg(long, value_name = "SPEC", value_parser = listed::spec(), hide_possible_values = true, help_heading = "Geometry")]
     pub(crate) to: Option<Spec>,
     /// Output pixels [default: parity with the input at the centre]
-    #[arg(long, value_name = "WxH|N", allow_hyphen_values = true, help_heading = "Geometry")]
+    #[arg(long, value_name = "WxH|N", value_parser = size, allow_hyphen_values = true, help_heading = "Geometry")]
     pub(crate) size: Option<Size>,
     #[command(flatten)]
     pub(crate) turn: TurnArgs,
@@ -107,4 +110,15 @@ impl FiltersArgs {
             ..Conversion::default()
         }
     }
+}
+
+/// Reads the size of a picture that is large enough for its pixels to be measured.
+fn size(text: &str) -> Result<Size, String> {
+    let size: Size = text.parse()?;
+    if size.width.min(size.height.unwrap_or(size.width)) < LEAST {
+        return Err(format!(
+            "expected {LEAST} pixels or more each way, too few to measure otherwise, as in 512 or 983x718"
+        ));
+    }
+    Ok(size)
 }

@@ -6,8 +6,8 @@ use clap::{Args, ValueHint};
 use clap_complete::Shell;
 use cosmorama_spec::SpecKind;
 
-use crate::parse::listed;
 use super::{verbs, with_examples};
+use crate::parse::listed;
 
 /// Example commands in the help of `help`.
 pub(super) const EXAMPLES: [&str; 5] = [

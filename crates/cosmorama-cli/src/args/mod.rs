@@ -27,10 +27,8 @@ pub(crate) use light::{
     BrdfArgs, DeployArgs, DiffuseArgs, HarmonicsArgs, LightArgs, LightVerb, MapArgs, Method, PresetName, SpecularArgs,
     SunArgs, TableArgs, Unit,
 };
-pub(crate) use papers::{FiguresArgs, PaperArgs, PlatesArgs};
-pub(crate) use shade::{
-    BackgroundName, CameraName, MaterialName, ObjectName, OcclusionName, Point, RefractName, ShadeArgs,
-};
+pub(crate) use papers::{FiguresArgs, PlatesArgs};
+pub(crate) use shade::{BackgroundName, CameraName, ObjectName, OcclusionName, Point, RefractName, ShadeArgs};
 pub(crate) use verify::VerifyArgs;
 
 pub(crate) use crate::parse::progress::ProgressStyle;

@@ -1,5 +1,3 @@
-pub(super) mod filters;
-
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -205,6 +203,6 @@ fn json_text(args: &CompareArgs, comparison: &Comparison, failures: &[String]) -
 }
 
 /// Converts decibels to JSON, which has no infinity: pictures that do not differ have no figure.
-fn decibels(psnr: f64) -> Value {
+pub(super) fn decibels(psnr: f64) -> Value {
     if psnr.is_finite() { json!(psnr) } else { Value::Null }
 }

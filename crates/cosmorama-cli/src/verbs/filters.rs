@@ -5,21 +5,20 @@ use std::process::ExitCode;
 use anyhow::Result;
 use cosmorama_convert::{FilterReport, FilterTrial, check_apart, refuse_existing};
 use cosmorama_io::Format;
-use cosmorama_spec::FilterName;
 use serde_json::{Value, json};
 
-use super::decibels;
+use super::compare::decibels;
+use super::convert::Watch;
+use super::{make_folder, write_picture};
 use crate::args::FiltersArgs;
 use crate::console::Console;
 use crate::pipe::KeptStreams;
-use crate::verbs::convert::Watch;
-use crate::verbs::{make_folder, write_picture};
 
 /// Name of the sheet of crops.
 const CROPS: &str = "crops.png";
 
 /// Compares filters on one conversion.
-pub(in crate::verbs) fn run(mut args: FiltersArgs, console: &mut Console) -> Result<ExitCode> {
+pub(super) fn run(mut args: FiltersArgs, console: &mut Console) -> Result<ExitCode> {
     let mut kept = KeptStreams::default();
     args.input = kept.input(&args.input)?;
     let crops = args.output.as_deref().map(|folder| folder.join(CROPS));
@@ -34,7 +33,7 @@ pub(in crate::verbs) fn run(mut args: FiltersArgs, console: &mut Console) -> Res
     }
     let _folders = args.output.as_deref().map(|folder| make_folder(folder, console)).transpose()?;
     let mut watch = Watch::new(console, args.progress);
-    let report = trials.run(&filters(&args), args.truth.as_deref(), &mut watch)?;
+    let report = trials.run(&args.filters(), args.truth.as_deref(), &mut watch)?;
     watch.finish();
     report.diagnostics.iter().for_each(|diagnostic| console.warn(diagnostic));
     if let Some(crops) = &crops {
@@ -51,28 +50,30 @@ pub(in crate::verbs) fn run(mut args: FiltersArgs, console: &mut Console) -> Res
     Ok(ExitCode::SUCCESS)
 }
 
-/// Returns the filters to compare: those that were asked for, or all.
-fn filters(args: &FiltersArgs) -> Vec<FilterName> {
-    if !args.only.is_empty() {
-        return args.only.clone();
-    }
-    FilterName::NAMES.iter().filter_map(|(name, _)| name.parse().ok()).collect()
-}
-
 /// A column of the table: its head, and the words of a trial.
 type Column = (&'static str, fn(&FilterTrial) -> String);
 
-const COLUMNS: [Column; 9] = [
-    ("filter", |trial| trial.filter.to_string()),
-    ("reference dB", |trial| format!("{:.2}", trial.to_reference)),
-    ("direct dB", |trial| optional(trial.to_truth, 2)),
-    ("aliasing dB", |trial| optional(trial.response.aliasing, 1)),
-    ("edge px", |trial| optional(trial.response.edge_width, 2)),
-    ("CPU s", |trial| format!("{:.3}", trial.cpu_seconds)),
-    ("setup s", |trial| format!("{:.3}", trial.setup_seconds)),
-    ("setup bytes", |trial| trial.setup.bytes.to_string()),
-    ("texels a pixel", |trial| format!("{:.1}", trial.reads)),
-];
+/// Memory of the preparation: for people, and for programs.
+const SETUP_MIB: Column = ("setup MiB", |trial| format!("{:.1}", trial.setup.bytes as f64 / f64::from(1 << 20)));
+const SETUP_BYTES: Column = ("setup bytes", |trial| trial.setup.bytes.to_string());
+
+/// Number of columns.
+const WIDTH: usize = 9;
+
+/// Returns the columns, with one for the memory of the preparation.
+fn columns(setup: Column) -> [Column; WIDTH] {
+    [
+        ("filter", |trial| trial.filter.to_string()),
+        ("reference dB", |trial| format!("{:.2}", trial.to_reference)),
+        ("direct dB", |trial| optional(trial.to_truth, 2)),
+        ("aliasing dB", |trial| optional(trial.response.aliasing, 1)),
+        ("edge px", |trial| optional(trial.response.edge_width, 2)),
+        ("CPU s", |trial| format!("{:.3}", trial.cpu_seconds)),
+        ("setup s", |trial| format!("{:.3}", trial.setup_seconds)),
+        setup,
+        ("texels a pixel", |trial| format!("{:.1}", trial.reads)),
+    ]
+}
 
 fn optional(value: Option<f64>, decimals: usize) -> String {
     value.map_or_else(|| "-".to_owned(), |value| format!("{value:.decimals$}"))
@@ -80,15 +81,16 @@ fn optional(value: Option<f64>, decimals: usize) -> String {
 
 /// Returns the table for people, with columns aligned.
 fn table(trials: &[FilterTrial]) -> String {
-    let head = COLUMNS.map(|(name, _)| name.to_owned());
-    let rows: Vec<[String; COLUMNS.len()]> =
-        std::iter::once(head).chain(trials.iter().map(|trial| COLUMNS.map(|(_, words)| words(trial)))).collect();
+    let columns = columns(SETUP_MIB);
+    let head = columns.map(|(name, _)| name.to_owned());
+    let rows: Vec<[String; WIDTH]> =
+        std::iter::once(head).chain(trials.iter().map(|trial| columns.map(|(_, words)| words(trial)))).collect();
     let width = |column: usize| rows.iter().map(|row| row[column].len()).max().unwrap_or_default();
-    let widths: [usize; COLUMNS.len()] = std::array::from_fn(width);
+    let widths: [usize; WIDTH] = std::array::from_fn(width);
     let mut text = String::new();
     for row in &rows {
         let name = format!("{:<width$}", row[0], width = widths[0]);
-        let rest = (1..COLUMNS.len()).map(|column| format!("{:>width$}", row[column], width = widths[column]));
+        let rest = (1..WIDTH).map(|column| format!("{:>width$}", row[column], width = widths[column]));
         let line: Vec<String> = std::iter::once(name).chain(rest).collect();
         let _ = writeln!(text, "{}", line.join("  "));
     }
@@ -97,10 +99,10 @@ fn table(trials: &[FilterTrial]) -> String {
 
 /// Returns the table as comma-separated values; what was not measured is empty.
 fn csv_text(trials: &[FilterTrial]) -> String {
-    let line =
-        |cells: [String; COLUMNS.len()]| cells.map(|cell| if cell == "-" { String::new() } else { cell }).join(",");
-    let head = line(COLUMNS.map(|(name, _)| name.replace(' ', "_")));
-    let rows = trials.iter().map(|trial| line(COLUMNS.map(|(_, words)| words(trial))));
+    let columns = columns(SETUP_BYTES);
+    let line = |cells: [String; WIDTH]| cells.map(|cell| if cell == "-" { String::new() } else { cell }).join(",");
+    let head = line(columns.map(|(name, _)| name.replace(' ', "_")));
+    let rows = trials.iter().map(|trial| line(columns.map(|(_, words)| words(trial))));
     std::iter::once(head).chain(rows).map(|line| line + "\n").collect()
 }
 

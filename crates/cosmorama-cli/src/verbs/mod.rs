@@ -3,17 +3,19 @@
 mod compare;
 mod convert;
 mod demo;
-mod diagram;
 mod explain;
+mod filters;
 mod help;
 mod info;
 mod light;
+mod papers;
 mod shade;
 mod verify;
 
 use std::fmt::Display;
 use std::path::Path;
 use std::process::ExitCode;
+use std::time::Instant;
 
 use anyhow::{Result, anyhow};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
@@ -35,13 +37,13 @@ pub(crate) fn run(verb: Verb, console: &mut Console) -> Result<ExitCode> {
         Verb::Convert(args) => convert::run(*args, console),
         Verb::Light(args) => light::run(args, console),
         Verb::Shade(args) => shade::run(*args, console),
-        Verb::Plates(args) => demo::plates::run(&args, console),
+        Verb::Plates(args) => papers::plates::run(&args, console),
         Verb::Info(args) => info::run(&args, console),
         Verb::Explain(args) => explain::run(*args, console),
         Verb::Compare(args) => compare::run(&args, console),
         Verb::Verify(args) => verify::run(&args, console),
-        Verb::Filters(args) => compare::filters::run(*args, console),
-        Verb::Figures(args) => demo::figures::run(&args, console),
+        Verb::Filters(args) => filters::run(*args, console),
+        Verb::Figures(args) => papers::figures::run(&args, console),
         Verb::Completions(args) => help::completions(&args, console),
         Verb::Man(args) => help::man(&args, console),
         Verb::Help(args) => help::help(&args, console),
@@ -73,9 +75,25 @@ fn check_depth(path: &Path, what: impl Display, depth: Depth, held: &[Depth]) ->
     Err(usage(format!("{path}: {what} has no --depth {depth}; choose {}", names.join(", "))))
 }
 
-/// Writes a picture for people to look at.
-fn write_picture((path, format): (&Path, Format), picture: &Image<Rgba>, console: &Console) -> Result<()> {
-    let (depth, channels) = (format.nearest_depth(Depth::Eight), format.nearest_channels(Channels::Rgb));
+/// Writes a picture for people to look at, without alpha.
+fn write_picture(file: (&Path, Format), picture: &Image<Rgba>, console: &Console) -> Result<()> {
+    write_channels(file, Channels::Rgb, picture, console)
+}
+
+/// Writes a picture as PNG of 8 bits, with alpha where not all of it is opaque.
+fn save_png(path: &Path, picture: &Image<Rgba>, console: &Console) -> Result<()> {
+    let is_opaque = picture.pixels().iter().all(|pixel| pixel.alpha() >= 1.0);
+    let channels = if is_opaque { Channels::Rgb } else { Channels::Rgba };
+    write_channels((path, Format::Png), channels, picture, console)
+}
+
+fn write_channels(
+    (path, format): (&Path, Format),
+    channels: Channels,
+    picture: &Image<Rgba>,
+    console: &Console,
+) -> Result<()> {
+    let (depth, channels) = (format.nearest_depth(Depth::Eight), format.nearest_channels(channels));
     let transfer = if depth.is_float() { Transfer::Linear } else { Transfer::Srgb };
     let encoded = EncodedImage::encode(picture, channels, depth, &transfer);
     let metadata = Metadata { transfer: Some(transfer), ..Metadata::default() };
@@ -83,11 +101,16 @@ fn write_picture((path, format): (&Path, Format), picture: &Image<Rgba>, console
     Ok(write(path, &encoded, &options)?)
 }
 
+/// Tells of a file that was made.
+fn tell_made(console: &Console, path: &Path, what: &str, start: Instant) -> Result<()> {
+    console.print(&format!("{:<40} {what} in {:.2} s\n", path.display().to_string(), start.elapsed().as_secs_f64()))
+}
+
 /// Makes a folder that does not exist yet, with those above it. Folders that stay empty are removed with the returned
 /// value.
 fn make_folder(folder: &Path, console: &Console) -> Result<NewFolders> {
-    if folder.is_file() {
-        return Err(usage(format!("{} is a file, where a folder was expected; name another", folder.display())));
+    if let Some(file) = folder.ancestors().find(|folder| folder.is_file()) {
+        return Err(usage(format!("{} is a file, where a folder was expected; name another", file.display())));
     }
     let mut folders = NewFolders::new(&console.unfinished);
     folders.make(folder).map_err(|error| {

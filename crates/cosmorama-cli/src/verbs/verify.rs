@@ -25,8 +25,8 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Result<ExitCode> {
         pattern: &args.pattern,
         frames: args.frames.clone(),
         size: args.size,
-        memory: MemoryBudget::new(args.memory),
-        sheet: args.sheet.as_ref().map(|_| SheetLayout { every: args.every.get() }),
+        memory: MemoryBudget::new(args.limits.memory),
+        sheet: args.sheet.as_ref().map(|_| SheetLayout { every: args.every as u64 }),
     };
     let mut watch = Watch::new(console, args.progress);
     let verified = verification.run(&Disk, &mut watch)?;

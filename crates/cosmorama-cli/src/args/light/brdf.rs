@@ -5,8 +5,8 @@ use cosmorama::lighting::{BrdfModel, LARGEST_BRDF_TABLE};
 use cosmorama_spec::DepthName;
 
 use crate::args::convert::{OutputArgs, threads};
-use crate::parse::listed;
 use crate::args::with_examples;
+use crate::parse::listed;
 
 /// Commands that the help of `light brdf` shows.
 pub(super) const BRDF_EXAMPLES: [&str; 4] = [

@@ -8,9 +8,9 @@ use cosmorama_convert::Conversion;
 use cosmorama_spec::{DepthName, Missing};
 
 use super::world::WorldArgs;
+use crate::args::with_examples;
 use crate::parse::listed;
 use crate::parse::number::degrees;
-use crate::args::with_examples;
 
 /// Commands that the help of `light table` shows.
 pub(super) const TABLE_EXAMPLES: [&str; 4] = [

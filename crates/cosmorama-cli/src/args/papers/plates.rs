@@ -12,7 +12,9 @@ pub(in crate::args) const EXAMPLES: [&str; 2] = ["cosmorama plates plates", "cos
 #[derive(Debug, Args)]
 #[command(help_template = with_examples(&EXAMPLES))]
 pub(crate) struct PlatesArgs {
-    /// Edge of the world's faces in pixels, made even; the plates' sizes go with it [default: 768]
+    /// Edge of the world's faces in pixels, as in 512 or 4k [default: 768]
+    ///
+    /// It is made even. The plates' sizes go with it: their frames are 4/3 of it wide.
     #[arg(long, value_name = "N", value_parser = edge, default_value_t = 768, hide_default_value = true, allow_hyphen_values = true)]
     pub(crate) size: usize,
     #[command(flatten)]

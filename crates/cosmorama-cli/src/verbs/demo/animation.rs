@@ -8,19 +8,18 @@ use std::time::Instant;
 use anyhow::{Context, Result, bail};
 use cosmorama::camera::{CameraModel, CubeFaceCamera, View};
 use cosmorama::motion::{Shutter, ShutterCurve, Smoothness};
-use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
 use cosmorama::sphere::CubeFace;
 use cosmorama_builtin::{DemoWorld, Eyepiece, picture};
 use cosmorama_convert::{
     Backdrop, BlurMethod, CameraMovement, Conversion, Existing, MotionBlur, PoseFile, refuse_existing, threads,
 };
-use cosmorama_io::{FrameList, Metadata, WriteOptions, write};
+use cosmorama_io::FrameList;
 use cosmorama_spec::Size;
 
-use super::{quoted, tell};
+use super::command::quoted;
 use crate::args::{DemoArgs, ProgressStyle};
 use crate::console::Console;
-use crate::verbs::{convert, make_folder};
+use crate::verbs::{convert, make_folder, save_png, tell_made};
 
 /// Edge of the world's faces, size of the frames, and frames in a second.
 const FACE: usize = 768;
@@ -52,10 +51,10 @@ pub(super) fn run(args: &DemoArgs, frames: u64, folder: &Path, console: &Console
     threads(args.limits.threads)?.install(|| render(folder, console))?;
     std::fs::write(folder.join(PATH), poses(frames))
         .with_context(|| format!("cannot write {}", folder.join(PATH).display()))?;
-    tell(console, &folder.join(WORLD), "the world's faces", start)?;
+    tell_made(console, &folder.join(WORLD), "the world's faces", start)?;
     let start = Instant::now();
     convert::convert(conversion(args, frames, folder)?, ProgressStyle::Auto, console)?;
-    tell(console, &folder.join(FRAMES), "the frames", start)?;
+    tell_made(console, &folder.join(FRAMES), "the frames", start)?;
     console.print(&format!("  {}\n", command(folder)))?;
     video(folder, console)
 }
@@ -72,16 +71,9 @@ fn render(folder: &Path, console: &Console) -> Result<()> {
     let view = CameraModel::CubeFace(CubeFaceCamera).view(FACE, FACE)?;
     for face in CubeFace::ALL {
         let light = picture(&DemoWorld, &View { orientation: face.orientation(), ..view.clone() });
-        save(&folder.join(WORLD.replace("{face}", face.name())), &light, Channels::Rgb, console)?;
+        save_png(&folder.join(WORLD.replace("{face}", face.name())), &light, console)?;
     }
-    save(&folder.join(PLATE), &Eyepiece.picture(FRAME.0, FRAME.1), Channels::Rgba, console)
-}
-
-fn save(path: &Path, light: &Image<Rgba>, channels: Channels, console: &Console) -> Result<()> {
-    let encoded = EncodedImage::encode(light, channels, Depth::Eight, &Transfer::Srgb);
-    let metadata = Metadata { transfer: Some(Transfer::Srgb), ..Metadata::default() };
-    let options = WriteOptions { unfinished: console.unfinished.clone(), ..WriteOptions::with_metadata(metadata) };
-    Ok(write(path, &encoded, &options)?)
+    save_png(&folder.join(PLATE), &Eyepiece.picture(FRAME.0, FRAME.1), console)
 }
 
 /// Returns the camera's path as a table.
@@ -134,7 +126,7 @@ fn video(folder: &Path, console: &Console) -> Result<()> {
     ffmpeg.args(["-y", "-loglevel", "error", "-framerate", &RATE.to_string(), "-i"]).arg(&frames);
     ffmpeg.args(["-pix_fmt", "yuv420p", "-movflags", "+faststart"]).arg(&video).stdin(Stdio::null());
     match ffmpeg.output() {
-        Ok(made) if made.status.success() => tell(console, &video, "the video, by ffmpeg,", start),
+        Ok(made) if made.status.success() => tell_made(console, &video, "the video, by ffmpeg,", start),
         Ok(made) => bail!("ffmpeg could not make {}: {}", video.display(), String::from_utf8_lossy(&made.stderr).trim()),
         Err(error) if error.kind() == ErrorKind::NotFound => console.print(&format!(
             "ffmpeg is not installed; where it is, this makes a video:\n  ffmpeg -framerate {RATE} -i {} -pix_fmt yuv420p {}\n",

@@ -13,9 +13,10 @@ use cosmorama_convert::{Explanation, ExplanationSettings, PathExplanation, Pictu
 use cosmorama_io::pending::Hidden;
 use serde_json::{Value, json};
 
-use super::{diagram, make_folder};
+use super::make_folder;
 use crate::args::ExplainArgs;
 use crate::console::Console;
+use crate::diagram;
 use crate::failure::usage;
 use crate::pipe::KeptStreams;
 

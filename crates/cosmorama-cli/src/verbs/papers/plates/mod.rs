@@ -1,7 +1,6 @@
 //! The seven plates and two figures of N. Greene, *Applications of world projections* (Graphics Interface '86), made
 //! anew of worlds and a model by formula.
 
-mod figure;
 mod studio;
 mod things;
 
@@ -10,17 +9,18 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use anyhow::Result;
-use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
+use cosmorama::raster::{Image, Rgba};
 use cosmorama::sphere::CubeFace;
+use cosmorama::world::World;
 use cosmorama_convert::{MemoryBudget, refuse_existing, threads};
-use cosmorama_io::{Metadata, WriteOptions, write};
 
 use self::studio::Studio;
+use super::{NOUN, reflection_cone};
 use crate::args::PlatesArgs;
 use crate::console::Console;
+use crate::diagram;
 use crate::progress::Progress;
-use crate::verbs::demo::tell;
-use crate::verbs::{diagram, make_folder};
+use crate::verbs::{make_folder, save_png, tell_made};
 
 /// A picture: its file, its content, and its maker.
 type Plate = (&'static str, &'static str, fn(&Studio) -> Result<Image<Rgba>>);
@@ -37,41 +37,52 @@ const PLATES: [Plate; 8] = [
     ("figure1.png", "the rays of a pixel, and their reflection cone", things::reflection_cone),
 ];
 
-/// Pictures that plates are made of, and that lie under the drawings.
+/// Pictures of the worlds that the plates show.
 const SKY: &str = "world/sky.png";
 const MERCATOR: &str = "world/mercator.png";
 
-/// Drawings: one reflection cone in two projections.
-const DRAWINGS: [&str; 2] = ["figure2-mercator", "figure2-cube"];
+/// A drawing: its file and its maker.
+type Drawing = (&'static str, fn(&Studio) -> Result<String>);
 
-/// Columns of the cross of an unfolded cube, and its rows, in faces.
-const CROSS: (usize, usize) = (4, 3);
+/// Both drawings: one reflection cone in two projections.
+const DRAWINGS: [Drawing; 2] = [
+    ("figure2-mercator", |studio| Ok(reflection_cone(&World::new([("Mercator".to_owned(), studio.map(MAP)?)])?, AXIS))),
+    ("figure2-cube", |studio| Ok(reflection_cone(studio.environment().world, AXIS))),
+];
+
+/// Width of the map under the cone, in pixels where an edge has 768.
+const MAP: usize = 768;
+
+/// Degrees to the right and up of the cone's axis. The cone touches all faces but the one behind.
+const AXIS: (f64, f64) = (28.0, 24.0);
+
+/// Pixels that are held at once, in faces: the photograph of the sky and the copy that is looked up, half a cube, six faces and
+/// their light, and the largest plate.
+const HELD: (usize, usize) = (6, 4);
 
 /// Makes all plates and figures.
-pub(in crate::verbs) fn run(args: &PlatesArgs, console: &Console) -> Result<ExitCode> {
+pub(in crate::verbs) fn run(PlatesArgs { size, paper }: &PlatesArgs, console: &Console) -> Result<ExitCode> {
     let start = Instant::now();
-    MemoryBudget::new(args.limits.memory).check_picture((CROSS.0 * args.size, CROSS.1 * args.size))?;
-    if !args.overwrite {
-        refuse_existing(outputs(&args.dir).iter().map(PathBuf::as_path))?;
+    MemoryBudget::new(paper.limits.memory).check_picture((HELD.0 * size, HELD.1 * size))?;
+    if !paper.overwrite {
+        refuse_existing(outputs(&paper.dir).iter().map(PathBuf::as_path))?;
     }
-    let _folders = [make_folder(&args.dir, console)?, make_folder(&args.dir.join("world"), console)?];
-    let pool = threads(args.limits.threads)?;
-    let mut progress = Progress::new(args.progress, 1 + PLATES.len() + DRAWINGS.len());
-    let studio = pool.install(|| world(args, console))?;
+    let _folders = [make_folder(&paper.dir, console)?, make_folder(&paper.dir.join("world"), console)?];
+    let pool = threads(paper.limits.threads)?;
+    let mut progress = Progress::of(NOUN, paper.progress, 1 + PLATES.len() + DRAWINGS.len());
+    let studio = pool.install(|| world(*size, &paper.dir, console))?;
     progress.frame_done(None);
     for (name, what, make) in PLATES {
         let start = Instant::now();
-        let path = args.dir.join(name);
-        pool.install(|| save(&path, &make(&studio)?, console))?;
-        tell(console, &path, what, start)?;
+        let path = paper.dir.join(name);
+        pool.install(|| save_png(&path, &make(&studio)?, console))?;
+        tell_made(console, &path, what, start)?;
         progress.frame_done(None);
     }
-    for (name, drawing) in DRAWINGS.into_iter().zip([figure::on_mercator, figure::on_cube]) {
+    for (name, make) in DRAWINGS {
         let start = Instant::now();
-        for file in pool.install(|| diagram::draw(&args.dir, name, &drawing(&studio)?, &console.unfinished))? {
-            file.appear()?;
-        }
-        tell(console, &diagram::files(&args.dir, name)[0], "a reflection cone on that map, also as PNG", start)?;
+        let [vector, _] = pool.install(|| diagram::save(&paper.dir, name, &make(&studio)?, &console.unfinished))?;
+        tell_made(console, &vector, "a reflection cone on that map, also as PNG", start)?;
         progress.frame_done(None);
     }
     progress.finish();
@@ -80,15 +91,15 @@ pub(in crate::verbs) fn run(args: &PlatesArgs, console: &Console) -> Result<Exit
 }
 
 /// Makes the worlds that the plates show, and writes them.
-fn world(args: &PlatesArgs, console: &Console) -> Result<Studio> {
+fn world(size: usize, folder: &Path, console: &Console) -> Result<Studio> {
     let start = Instant::now();
-    let studio = Studio::new(args.size)?;
-    save(&args.dir.join(SKY), studio.sky(), console)?;
-    save(&args.dir.join(MERCATOR), &studio.mercator()?, console)?;
+    let studio = Studio::new(size)?;
+    save_png(&folder.join(SKY), studio.sky(), console)?;
+    save_png(&folder.join(MERCATOR), &studio.mercator()?, console)?;
     for (face, picture) in studio.faces() {
-        save(&args.dir.join(file_of(face)), picture, console)?;
+        save_png(&folder.join(file_of(face)), picture, console)?;
     }
-    tell(console, &args.dir.join("world/{face}.png"), "the environment, sky first", start)?;
+    tell_made(console, &folder.join("world/{face}.png"), "the environment, sky first", start)?;
     Ok(studio)
 }
 
@@ -96,20 +107,11 @@ fn world(args: &PlatesArgs, console: &Console) -> Result<Studio> {
 fn outputs(folder: &Path) -> Vec<PathBuf> {
     let pictures = PLATES.into_iter().map(|(name, ..)| folder.join(name));
     let worlds = CubeFace::ALL.map(file_of).into_iter().chain([SKY, MERCATOR].map(str::to_owned));
-    let drawings = DRAWINGS.into_iter().flat_map(|name| diagram::files(folder, name));
+    let drawings = DRAWINGS.into_iter().flat_map(|(name, _)| diagram::files(folder, name));
     pictures.chain(worlds.map(|name| folder.join(name))).chain(drawings).collect()
 }
 
 /// Returns the file of a face of the environment.
 fn file_of(face: CubeFace) -> String {
     format!("world/{}.png", face.name())
-}
-
-fn save(path: &Path, light: &Image<Rgba>, console: &Console) -> Result<()> {
-    let is_opaque = light.pixels().iter().all(|pixel| pixel.alpha() >= 1.0);
-    let channels = if is_opaque { Channels::Rgb } else { Channels::Rgba };
-    let encoded = EncodedImage::encode(light, channels, Depth::Eight, &Transfer::Srgb);
-    let metadata = Metadata { transfer: Some(Transfer::Srgb), ..Metadata::default() };
-    let options = WriteOptions { unfinished: console.unfinished.clone(), ..WriteOptions::with_metadata(metadata) };
-    Ok(write(path, &encoded, &options)?)
 }
