@@ -131,11 +131,15 @@ fn digests_are_of_what_is_computed() {
     let args = ["convert", "sky_#.png", "out_#.png", "--to", "fulldome", "--size", "16", "--from", "equirect"];
     let with = |more: &[&'static str]| [&args[..], more].concat();
     bench.succeed(&with(&["--yaw", "90"]));
-    let same: [&[&str]; 4] = [&["--yaw", "450"], &["--yaw=-270"], &["--yaw", "90", "--pitch", "0"], &["--yaw", "90", "--threads", "1"]];
+    let same: [&[&str]; 4] =
+        [&["--yaw", "450"], &["--yaw=-270"], &["--yaw", "90", "--pitch", "0"], &["--yaw", "90", "--threads", "1"]];
     for same in same {
         kept(&bench, &with(same));
     }
-    kept(&bench, &["convert", "sky_#.png", "out_#.png", "--to", "fulldome:yaw=90", "--size", "16x16", "--kernel", "adaptive"]);
+    kept(
+        &bench,
+        &["convert", "sky_#.png", "out_#.png", "--to", "fulldome:yaw=90", "--size", "16x16", "--kernel", "adaptive"],
+    );
     for (more, part) in [
         (&["--yaw", "90", "--transfer", "gamma2.2"][..], "other colours"),
         (&["--yaw", "90", "--in-transfer", "linear"], "other colours"),
@@ -202,7 +206,8 @@ fn files_behind_and_beside_are_inputs_too() {
     std::fs::write(bench.path("sky_2.tga"), bytes).unwrap();
     assert_says(&bench.fail(1, &resume), &["out_2.png was made with other inputs"]);
     // Only the frame's own files of a backdrop count.
-    let args = ["convert", "cap_#.png", "over_#.png", "--from", "perspective:fov=60", "--to", "fisheye", "--size", "16"];
+    let args =
+        ["convert", "cap_#.png", "over_#.png", "--from", "perspective:fov=60", "--to", "fisheye", "--size", "16"];
     let args = [&args[..], &["--backdrop", "sky_#.tga"]].concat();
     bench.succeed(&args);
     kept(&bench, &args);
@@ -216,7 +221,8 @@ fn files_behind_and_beside_are_inputs_too() {
 fn stripped_frames_say_nothing_of_how_they_were_made() {
     let bench = Bench::new();
     bench.save("sky_1.png", &picture(1, 64, 32));
-    let args = ["convert", "sky_1.png", "out_1.png", "--to", "fisheye", "--size", "16", "--from", "equirect", "--strip"];
+    let args =
+        ["convert", "sky_1.png", "out_1.png", "--to", "fisheye", "--size", "16", "--from", "equirect", "--strip"];
     let args = [&args[..], &["--frames", "1"]].concat();
     let sequence = args.iter().map(|word| word.replace("_1.", "_#.")).collect::<Vec<_>>();
     let sequence: Vec<&str> = sequence.iter().map(String::as_str).collect();
