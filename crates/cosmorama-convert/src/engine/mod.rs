@@ -18,7 +18,7 @@ pub use timing::CpuSeconds;
 
 pub(crate) use frame::files::{FrameFile, ViewImage, Which};
 pub(crate) use frame::light::{Counts, FrameLight, Texels};
-pub(crate) use frame::pictures::{Engine, assemble};
+pub(crate) use frame::pictures::Engine;
 pub(crate) use geometry::Geometry;
 pub(crate) use layers::LayerPass;
 pub(crate) use lighting::balance::{self, Balance, BalancedLight};

@@ -1,6 +1,7 @@
 //! Targets: pictures of a projection, laid out in files.
 
 pub(crate) mod aspect;
+mod assembly;
 mod chain;
 pub(crate) mod gpano;
 pub(crate) mod light;

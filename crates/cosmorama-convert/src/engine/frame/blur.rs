@@ -8,7 +8,7 @@ use cosmorama::motion::{Exposure, LightSum, Moment};
 use cosmorama::raster::{Image, Rgba};
 use cosmorama::render::{Progress, Share};
 
-use super::pictures::{Layer, Making, assemble_in};
+use super::pictures::{Layer, Making};
 use crate::diagnostic::{Result, bail};
 use crate::engine::{Engine, FrameLight, Levels, Shares, Texels};
 use crate::job::FrameOutputs;
@@ -119,7 +119,7 @@ impl Engine<'_> {
         let background = self.job.light.background;
         let file = |(file, _): &(usize, PathBuf)| {
             let sheets = self.job.target.files[*file].levels();
-            let images = sheets.map(|sheet| assemble_in(&self.pool, sheet, background, &mut view));
+            let images = sheets.map(|sheet| sheet.assemble_in(&self.pool, background, &mut view));
             Ok(Levels::Light(images.collect::<Result<_>>()?))
         };
         frame.files.iter().map(file).collect()

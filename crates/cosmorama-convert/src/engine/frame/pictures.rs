@@ -3,7 +3,7 @@ use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use cosmorama::camera::View;
 use cosmorama::filter::Ewa;
-use cosmorama::raster::{FixedCodec, FixedLight, FramePool, Image, Pixel, Rgba};
+use cosmorama::raster::{FixedCodec, FixedLight, FramePool, Image, Rgba};
 use cosmorama::render::{Continuation, Progress, Share, Stopped};
 use cosmorama::world::Source;
 use cosmorama_io::WriteOptions;
@@ -317,7 +317,7 @@ impl<'a> Engine<'a> {
             self.lay_background((posed, index), &mut image);
             Ok(image)
         };
-        let picture = |sheet| assemble_in(&self.pool, sheet, self.job.light.background, view);
+        let picture = |sheet: &Sheet| sheet.assemble_in(&self.pool, self.job.light.background, view);
         Ok(Levels::Light(self.job.target.files[file].levels().map(picture).collect::<Result<_>>()?))
     }
 
@@ -331,12 +331,12 @@ impl<'a> Engine<'a> {
         match (light.texels(), &self.codec) {
             (Texels::Fixed(worlds), Some(codec)) => {
                 let mut view = |index| self.codes(index, (worlds, codec), making);
-                let picture = |sheet| assemble_in(&self.pool, sheet, codec.background(), &mut view);
+                let picture = |sheet: &Sheet| sheet.assemble_in(&self.pool, codec.background(), &mut view);
                 Ok(Levels::Codes(sheets.map(picture).collect::<Result<_>>()?))
             }
             _ => {
                 let mut view = |index| self.render_view(index, (frame, light), making);
-                let picture = |sheet| assemble_in(&self.pool, sheet, self.job.light.background, &mut view);
+                let picture = |sheet: &Sheet| sheet.assemble_in(&self.pool, self.job.light.background, &mut view);
                 Ok(Levels::Light(sheets.map(picture).collect::<Result<_>>()?))
             }
         }
@@ -525,56 +525,9 @@ fn counted(pixels: usize, one: &str, several: &str) -> String {
     if pixels == 1 { format!("1 pixel {one}") } else { format!("{pixels} pixels {several}") }
 }
 
-/// Assembles a picture: one image, or several in their places on a background.
-pub(crate) fn assemble<P: Copy>(
-    sheet: &Sheet,
-    background: P,
-    image: impl FnMut(usize) -> Result<Image<P>>,
-) -> Result<Image<P>> {
-    let (width, height) = sheet.size;
-    assemble_by(sheet, || Image::filled(width, height, background), image, drop)
-}
-
 /// Returns how many bytes a pool may hold: as much as the frames in flight take, except their light, which has a buffer
 /// of its own. It is 0 for a single picture, after which no other would use the memory.
 fn pool_bytes(job: &ConvertJob, queue_depth: QueueDepth) -> u64 {
     let light = job.input.texels().saturating_mul(size_of::<Rgba>()) as u64;
     if job.outputs.frames.len() > 1 { queue_depth.bytes.saturating_sub(light) } else { 0 }
-}
-
-/// Assembles a picture in memory of a pool, and gives the memory of its pieces back.
-pub(super) fn assemble_in<P: Pixel>(
-    pool: &FramePool,
-    sheet: &Sheet,
-    background: P,
-    image: impl FnMut(usize) -> Result<Image<P>>,
-) -> Result<Image<P>> {
-    let (width, height) = sheet.size;
-    let blank = || {
-        let mut blank = pool.take_image(width, height);
-        blank.pixels_mut().fill(background);
-        blank
-    };
-    assemble_by(sheet, blank, image, |image| pool.give_image(image))
-}
-
-fn assemble_by<P: Copy>(
-    sheet: &Sheet,
-    blank: impl Fn() -> Image<P>,
-    mut image: impl FnMut(usize) -> Result<Image<P>>,
-    done: impl Fn(Image<P>),
-) -> Result<Image<P>> {
-    let mut picture = None;
-    for &(index, (left, top)) in &sheet.pieces {
-        let piece = image(index)?;
-        if (piece.width(), piece.height()) == sheet.size {
-            return Ok(piece);
-        }
-        let picture = picture.get_or_insert_with(&blank);
-        for j in 0..piece.height() {
-            picture.pixels_mut()[(top + j) * sheet.size.0 + left..][..piece.width()].copy_from_slice(piece.row(j));
-        }
-        done(piece);
-    }
-    Ok(picture.unwrap_or_else(blank))
 }

@@ -10,7 +10,7 @@ use cosmorama_io::{WriteOptions, write_planes};
 
 use crate::diagnostic::Result;
 use crate::engine::unfiltered::OutputFile;
-use crate::engine::{Levels, Stage, Writer, assemble};
+use crate::engine::{Levels, Stage, Writer};
 
 /// Makes a picture of a world by formula.
 pub(crate) fn picture(output: &OutputFile, world: BuiltinWorld, options: &WriteOptions) -> Result<()> {
@@ -48,7 +48,7 @@ fn levels(output: &OutputFile, world: BuiltinWorld) -> Result<Levels> {
         _ => Ok(moment(&output.views[index].view)),
     };
     let levels = job.target.files[file].levels();
-    Ok(Levels::Light(levels.map(|sheet| assemble(sheet, background, picture)).collect::<Result<_>>()?))
+    Ok(Levels::Light(levels.map(|sheet| sheet.assemble(background, picture)).collect::<Result<_>>()?))
 }
 
 /// Computes the light of a world in a view, in some primaries.
@@ -64,7 +64,7 @@ pub(crate) fn light(world: BuiltinWorld, view: &View, primaries: &Primaries) -> 
 
 /// Computes the directions of a file's pixels.
 fn pixels(output: &OutputFile, map: DirectionMap) -> Result<Image<DirectionPixel>> {
-    assemble(&output.job.target.files[output.index].sheet, DirectionPixel::default(), |index| {
+    output.job.target.files[output.index].sheet.assemble(DirectionPixel::default(), |index| {
         Ok(map.pixels(&output.views[index].view))
     })
 }

@@ -9,7 +9,7 @@ use cosmorama_io::{Header, WriteOptions, write_planes};
 
 use crate::diagnostic::{Result, ST_MAP, TO, bail};
 use crate::engine::unfiltered::OutputFile;
-use crate::engine::{Stage, assemble};
+use crate::engine::Stage;
 use crate::input::{Input, InputView};
 use crate::job::ConvertJob;
 use crate::packing::Place;
@@ -22,7 +22,7 @@ const CHANNELS: [&str; 3] = ["R", "G", "B"];
 pub(crate) fn make(output: &OutputFile) -> Result<()> {
     let OutputFile { job, stages, .. } = *output;
     let map = |view: usize| st_pixels(job, &output.views[view]);
-    let image = stages.alone(Stage::Filter, || assemble(&job.target.files[output.index].sheet, ST_NOWHERE, map))?;
+    let image = stages.alone(Stage::Filter, || job.target.files[output.index].sheet.assemble(ST_NOWHERE, map))?;
     let options = WriteOptions { unfinished: output.unfinished.clone(), ..WriteOptions::default() };
     stages.alone(Stage::Encode, || save(&image, output.path, job.light.depth, &options))
 }

@@ -4,3 +4,4 @@ pub(crate) mod decode;
 pub(crate) mod encode;
 pub(crate) mod frame_pool;
 pub(crate) mod quantizer;
+pub(crate) mod samples;
