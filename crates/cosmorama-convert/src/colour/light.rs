@@ -372,7 +372,7 @@ fn metadata(
             .filter(|_| target.format == Format::Exr && !matches!(transfer, Transfer::Pq | Transfer::Hlg))
             .map(|white| white as f32),
         orientation: None,
-        software: Some(concat!("cosmorama ", env!("CARGO_PKG_VERSION")).to_owned()),
+        software: None,
         pose: None,
         carried: match first.filter(|_| !args.strip) {
             Some(first) => carried(first, target.format, warnings),
