@@ -20,7 +20,8 @@ pub(super) const EXAMPLES: [&str; 3] = [
 ///
 /// Every frame is read to its end. Told are frames without a file, files that are no whole picture, pictures of another size, of other
 /// channels or another depth, those made by other settings, black ones, those that equal the frame before, and flashes: single frames far from both neighbours.
-/// With a fault the exit code is 1, and the last line lists all frames to make again.
+/// With a fault the exit code is 1, and the last line lists all frames to make again. The frames of each face, eye or level are a
+/// sequence by themselves.
 #[derive(Debug, Args)]
 #[command(help_template = with_examples(&EXAMPLES))]
 pub(crate) struct VerifyArgs {
@@ -42,6 +43,9 @@ pub(crate) struct VerifyArgs {
     /// Replace an existing sheet
     #[arg(short = 'y', long, requires = "sheet")]
     pub(crate) overwrite: bool,
+    /// Fail where the folder of the sheet does not exist
+    #[arg(long, requires = "sheet")]
+    pub(crate) no_mkdir: bool,
     #[command(flatten)]
     pub(crate) limits: LimitArgs,
     /// How to tell what is going on, on standard error

@@ -1,13 +1,15 @@
+use std::path::Path;
 use std::process::ExitCode;
 
 use anyhow::Result;
-use cosmorama_convert::{Disk, Fault, MemoryBudget, SheetLayout, Verification, Verified, check_sheet, refuse_existing};
+use cosmorama_convert::{Disk, Fault, SheetLayout, Verification, Verified, check_sheet};
+use cosmorama_io::pending::{NewFolders, Pending};
 use cosmorama_io::{Format, FrameList};
 use serde_json::{Value, json};
 
 use super::convert::Watch;
-use super::write_picture;
-use crate::args::VerifyArgs;
+use super::{prepare_output, write_picture};
+use crate::args::{OutputArgs, VerifyArgs};
 use crate::console::Console;
 use crate::failure::usage;
 
@@ -15,29 +17,34 @@ use crate::failure::usage;
 pub(super) fn run(args: &VerifyArgs, console: &Console) -> Result<ExitCode> {
     let format = args.sheet.as_deref().map(Format::from_extension).transpose();
     let format = format.map_err(|error| usage(error.to_string()))?;
-    if let Some(sheet) = &args.sheet {
-        check_sheet(&args.pattern, sheet)?;
-        if !args.overwrite {
-            refuse_existing(std::iter::once(sheet.as_path()))?;
-        }
-    }
+    let _folders = args.sheet.as_deref().map(|sheet| prepare_sheet(sheet, args, console)).transpose()?;
     let verification = Verification {
         pattern: &args.pattern,
         frames: args.frames.clone(),
         size: args.size,
-        memory: MemoryBudget::new(args.limits.memory),
-        sheet: args.sheet.as_ref().map(|_| SheetLayout { every: args.every as u64 }),
+        limits: args.limits.clone().into(),
+        sheet: args.sheet.as_ref().map(|_| SheetLayout { every: args.every }),
     };
     let mut watch = Watch::new(console, args.progress);
     let verified = verification.run(&Disk, &mut watch)?;
     watch.finish();
-    if let (Some(path), Some(format), Some(sheet)) = (&args.sheet, format, &verified.sheet) {
-        write_picture((path, format), sheet, console)?;
-    }
     let text =
         if args.json { serde_json::to_string_pretty(&json_of(args, &verified))? + "\n" } else { text_of(&verified) };
     console.print(&text)?;
+    if let (Some(path), Some(format), Some(sheet)) = (&args.sheet, format, &verified.sheet) {
+        write_picture((path, format), sheet, console)?;
+    }
     Ok(if verified.faults.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// Refuses to replace a frame, or a file unasked, and makes the sheet's folder. If it cannot be written there, that is told before
+/// all frames are read.
+fn prepare_sheet(sheet: &Path, args: &VerifyArgs, console: &Console) -> Result<Option<NewFolders>> {
+    check_sheet(&args.pattern, sheet)?;
+    let file = OutputArgs { overwrite: args.overwrite, no_mkdir: args.no_mkdir };
+    let folders = prepare_output(sheet, file, console)?;
+    Pending::create(sheet, &console.unfinished)?;
+    Ok(folders)
 }
 
 /// Returns the list of faults, a line for each kind or damaged frame.
@@ -54,9 +61,12 @@ fn text_of(verified: &Verified) -> String {
     }
     let line = |(told, frames): (String, Vec<u64>)| format!("{told}: {}\n", FrameList::new(frames));
     let list: String = lines.into_iter().map(line).collect();
-    match verified.faults.len() {
-        0 => format!("{} frames are whole and alike\n", verified.frames),
-        faulty => format!("{list}{faulty} of {} frames have faults: {}\n", verified.frames, verified.faulty()),
+    match (verified.faults.len(), verified.frames) {
+        (0, 1) => "1 frame is whole\n".to_owned(),
+        (0, frames) => format!("{frames} frames are whole and alike\n"),
+        (1, 1) => format!("{list}the only frame has faults: {}\n", verified.faulty()),
+        (1, frames) => format!("{list}1 of {frames} frames has faults: {}\n", verified.faulty()),
+        (faulty, frames) => format!("{list}{faulty} of {frames} frames have faults: {}\n", verified.faulty()),
     }
 }
 

@@ -38,7 +38,7 @@ pub(crate) fn check_labels(
         }
         if header.channels.has_alpha() {
             let message = format!("{LABELS}: {path} has alpha: labels where it is 0 all become transparent black");
-            warnings.push(Diagnostic::warning(Code::AlphaRange, message));
+            warnings.push(Diagnostic::warning(Code::AlphaOfLabels, message));
         }
         if let Some(codes) = &header.metadata.rescaled {
             let message =

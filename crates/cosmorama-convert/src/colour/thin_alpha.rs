@@ -16,15 +16,10 @@ impl ThinAlpha {
     /// Finds the range of alpha over some pixels; `None` where one has full alpha.
     pub fn of(mut pixels: impl Iterator<Item = Rgba>) -> Option<Self> {
         let none = Self { least: 1.0, greatest: 0.0 };
-        pixels.try_fold(none, |range, pixel| {
+        pixels.try_fold(none, |Self { least, greatest }, pixel| {
             let alpha = pixel.alpha();
-            (alpha < FULL).then(|| range.with(Self { least: alpha, greatest: alpha }))
+            (alpha < FULL).then(|| Self { least: least.min(alpha), greatest: greatest.max(alpha) })
         })
-    }
-
-    /// Returns the range that spans this one and another.
-    pub(crate) fn with(self, other: Self) -> Self {
-        Self { least: self.least.min(other.least), greatest: self.greatest.max(other.greatest) }
     }
 
     /// Returns the warning; `None` if alpha is the same everywhere, because a multiplier varies.

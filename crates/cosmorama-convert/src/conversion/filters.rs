@@ -28,6 +28,7 @@ pub struct FilterTrials {
     settings: Conversion,
     input: WorldLight,
     view: View,
+    memory: MemoryBudget,
 }
 
 /// Measured properties of a filter on one conversion.
@@ -94,16 +95,16 @@ impl Conversion {
         let settings =
             Self { depth: Some(Depth::Float), light: Some(light), missing: Missing::Fill(Rgba::TRANSPARENT), ..self };
         let input = WorldLight::of(settings.clone(), diagnostics)?;
-        let view = target(&settings, input.pixels_per_radian())?;
-        MemoryBudget::new(settings.limits.memory).check_picture((view.width(), view.height()))?;
-        Ok(FilterTrials { settings, input, view })
+        let memory = MemoryBudget::new(settings.limits.memory);
+        let view = target(&settings, memory, input.pixels_per_radian())?;
+        memory.check_picture((view.width(), view.height()))?;
+        Ok(FilterTrials { settings, input, view, memory })
     }
 }
 
 /// Returns the one picture that is made.
-fn target(settings: &Conversion, parity: f64) -> Result<View> {
+fn target(settings: &Conversion, memory: MemoryBudget, parity: f64) -> Result<View> {
     let files = ChosenFiles { files: Arc::clone(&settings.files), choice: Choice::default() };
-    let memory = MemoryBudget::new(settings.limits.memory);
     let access = Access { files: &files, memory, decoded: &DecodedPicture::default() };
     let geometry = settled(&settings.geometry, Some(settings.input.as_str()), access, &mut Vec::new())?;
     match &Picture::all(&geometry, None, Some(parity))?[..] {
@@ -134,7 +135,10 @@ impl FilterTrials {
     ) -> Result<FilterReport> {
         observer.begin(1);
         let Radiance { world, light, primaries, diagnostics, .. } = self.input.radiance()?;
-        let memory = MemoryBudget::new(self.settings.limits.memory);
+        let laboratory = Laboratory::bytes(&world, &self.view) as u64;
+        let pixels = format!("; the picture has {}x{} pixels", self.view.width(), self.view.height());
+        self.memory.allow(laboratory, "what filters are measured by", &pixels)?;
+        let memory = self.memory.beside(laboratory);
         for filter in filters {
             self.filter(*filter).check(&world).map_err(|error| usage(format!("{filter}: {error}")))?;
             let bytes = self.filter(*filter).setup(&world).bytes as u64;
@@ -162,7 +166,7 @@ impl FilterTrials {
 
     /// Reads a direct render, in the primaries of the input.
     fn truth(&self, file: &Path, primaries: &Primaries) -> Result<Image<Rgba>> {
-        let limits = Limits::memory(MemoryBudget::new(self.settings.limits.memory).bytes);
+        let limits = Limits::memory(self.memory.bytes);
         let picture = read(&*self.settings.files, file, &limits)?;
         let transfer = InputTransfer::new(&self.settings.transfer, None).of(picture.image.depth(), &picture.metadata);
         let mut light = picture.image.to_light(&transfer);

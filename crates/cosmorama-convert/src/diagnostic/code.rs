@@ -68,6 +68,8 @@ pub enum Code {
     AlphaStraight,
     /// Alpha is below 0 or above 1.
     AlphaRange,
+    /// Labels have alpha; where it is 0, they become one.
+    AlphaOfLabels,
     /// A colour profile is not carried over.
     ProfileLost,
     /// Metadata are not carried over.

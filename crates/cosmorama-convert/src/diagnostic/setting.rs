@@ -54,7 +54,7 @@ settings! {
     Motion "motion" MOTION,
     /// Scale of a map of light in its file.
     Scale "scale" SCALE,
-    /// Frames of a sequence whose maps of light are computed.
+    /// Distance of the frames whose maps of light are computed, or that a contact sheet shows.
     Every "every" EVERY,
     /// Filter.
     Filter "filter" FILTER,

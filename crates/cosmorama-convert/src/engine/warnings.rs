@@ -2,6 +2,7 @@
 //! light, and a lens's circle that is not where it is assumed.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use cosmorama::filter::FilterKind;
@@ -143,35 +144,28 @@ pub(crate) fn alpha(job: &ConvertJob, frame: Option<u64>, light: &FrameLight) ->
     if !job.light.input_alpha {
         return Vec::new();
     }
-    let mut straight = Vec::new();
-    // A file may hold several views, of which some may be thin.
-    let mut files: BTreeMap<PathBuf, Option<ThinAlpha>> = BTreeMap::new();
+    // A file may hold several views.
+    let mut files: BTreeMap<PathBuf, Vec<(usize, Range<usize>)>> = BTreeMap::new();
     let worlds = job.worlds.iter().enumerate();
     let sources = worlds.flat_map(|(index, world)| world.sources().iter().map(move |source| (index, source)));
     for ((view, header, _), (world, source)) in job.input.present().zip(sources) {
-        let path = view.files.path(frame);
-        let known = files.get(&path).copied();
-        if !header.channels.has_alpha() {
-            continue;
+        if header.channels.has_alpha() {
+            let texels = source.offset..source.offset + source.texels().len();
+            files.entry(view.files.path(frame)).or_default().push((world, texels));
         }
-        let texels = source.offset..source.offset + source.texels().len();
-        let pixels = texels.map(|texel| light.texels().rgba(world, texel));
-        let told = StraightAlpha::of(pixels.clone()).told();
-        straight.extend(told.map(|told| (path.clone(), Code::AlphaStraight, told)));
-        if known == Some(None) {
-            continue;
-        }
-        let found = ThinAlpha::of(pixels);
-        let both = found.map(|found| known.flatten().map_or(found, |known| known.with(found)));
-        files.insert(path, both);
     }
-    let thin = files.into_iter().filter_map(|(path, alpha)| Some((path, Code::AlphaThin, alpha?.told()?)));
-    let told = thin.chain(straight);
-    told.map(|(path, code, told)| {
-        let path = path.display();
-        Diagnostic::warning(code, format!("{path}: {told}")).about(path)
-    })
-    .collect()
+    let told = files.iter().flat_map(|(path, views)| {
+        let texels = views.iter().flat_map(|(world, texels)| texels.clone().map(|texel| (*world, texel)));
+        let pixels = texels.map(|(world, texel)| light.texels().rgba(world, texel));
+        let thin = ThinAlpha::of(pixels.clone()).and_then(ThinAlpha::told).map(|told| (Code::AlphaThin, told));
+        let straight = StraightAlpha::of(pixels).told().map(|told| (Code::AlphaStraight, told));
+        let warning = |(code, told)| {
+            let path = path.display();
+            Diagnostic::warning(code, format!("{path}: {told}")).about(path)
+        };
+        [thin, straight].into_iter().flatten().map(warning).collect::<Vec<_>>()
+    });
+    told.collect()
 }
 
 /// Warns if a lens has left its circle elsewhere than a `--from` that does not place it assumes.

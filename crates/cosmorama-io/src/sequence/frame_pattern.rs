@@ -53,8 +53,21 @@ impl FramePattern {
 
     /// Returns the folder above the first part that varies with the frame.
     pub fn folder(&self) -> PathBuf {
-        let fixed = Path::new(&self.text).ancestors().find(|path| !is_numbered(path)).unwrap_or(Path::new(""));
+        let fixed = self.fixed();
         if fixed.as_os_str().is_empty() { PathBuf::from(".") } else { fixed.to_owned() }
+    }
+
+    /// Returns the frame whose file has this path below the [`folder`](Self::folder), whether it exists or not.
+    ///
+    /// ```
+    /// use cosmorama_io::FramePattern;
+    /// let pattern = FramePattern::parse("shot/dome_####.png").unwrap();
+    /// assert_eq!(pattern.frame_at("dome_0007.png".as_ref()), Some(7));
+    /// assert_eq!(pattern.frame_at("dome_7.png".as_ref()), None);
+    /// ```
+    pub fn frame_at(&self, below: &Path) -> Option<u64> {
+        let varying = Path::new(&self.text).strip_prefix(self.fixed()).ok()?;
+        number_in(below.to_str()?, &pieces(varying.to_str()?))
     }
 
     /// Finds the frames whose files exist, in order.
@@ -77,6 +90,11 @@ impl FramePattern {
             }
         }
         Ok(frames)
+    }
+
+    /// Returns the path above the first part that varies; empty where that is the first of all.
+    fn fixed(&self) -> &Path {
+        Path::new(&self.text).ancestors().find(|path| !is_numbered(path)).unwrap_or(Path::new(""))
     }
 
     /// Returns the first part of the path that varies.
@@ -213,5 +231,7 @@ mod tests {
         std::fs::remove_file(folder.path().join("002/f2.png")).unwrap();
         let pattern = FramePattern::parse(&format!("{}/###/f%d.png", folder.path().display())).unwrap();
         assert_eq!(pattern.existing().unwrap().into_iter().collect::<Vec<_>>(), [1, 12]);
+        let at = |below: &str| pattern.frame_at(Path::new(below));
+        assert_eq!(["002/f2.png", "002/f3.png", "f2.png"].map(at), [Some(2), None, None]);
     }
 }

@@ -169,3 +169,25 @@ fn alpha_that_is_full_nowhere_is_told() {
         assert_eq!(text(&run.stderr).contains("warning: sky.png: no pixel's alpha is full"), is_told);
     }
 }
+
+/// Float pixels, each of one grey and an alpha.
+fn greys(pixel: impl Fn(usize) -> [f32; 2]) -> EncodedImage {
+    let samples = (0..64 * 32).map(|k| pixel(k % 64)).flat_map(|[grey, alpha]| [grey, grey, grey, alpha]).collect();
+    EncodedImage::new(64, 32, Channels::Rgba, Depth::Float, Samples::Float(samples)).unwrap()
+}
+
+#[test]
+fn straight_alpha_is_told_of_and_bright_edges_and_glow_are_not() {
+    let bench = Bench::new();
+    let alpha = |i: usize| (i as f32 / 50.0).min(1.0);
+    let told = |pixel: &dyn Fn(usize) -> [f32; 2]| {
+        bench.save("sky.exr", &greys(pixel));
+        let to = ["--from", "equirect", "--to", "fulldome", "--size", "32"];
+        let run = bench.run(&[&["convert", "sky.exr", "out.exr", "-y"], &to[..]].concat());
+        text(&run.stderr).contains("warning: sky.exr: colour exceeds alpha")
+    };
+    assert!(told(&|i| [0.9, alpha(i)]));
+    assert!(!told(&|i| [0.9 * alpha(i), alpha(i)]));
+    assert!(!told(&|i| [4.0 * alpha(i), alpha(i)]));
+    assert!(!told(&|i| if i < 40 { [0.5, 0.0] } else { [1.0, 1.0] }));
+}

@@ -1,6 +1,7 @@
 //! Sequences with faults, each of which `verify` names by its frame.
 
 use crate::bench::{Bench, assert_says, flat, picture, text};
+use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
 use serde_json::{Value, json};
 
 /// Frames 1 to `count`, each a little other than the one before.
@@ -20,30 +21,90 @@ fn a_whole_sequence_has_no_faults() {
     assert_eq!((&report["frames"], &report["whole"], &report["faults"]), (&4.into(), &4.into(), &json!([])));
 }
 
-#[test]
-fn every_fault_is_named_by_its_frame() {
-    let bench = Bench::new();
-    sequence(&bench, 9);
+/// Greys of frames: two that are equal, 5 and 6, and a flash, 11.
+const GREYS: [u8; 12] = [101, 102, 103, 104, 105, 105, 107, 108, 109, 110, 200, 112];
+
+/// Twelve frames by this program with one fault each, or none.
+fn faulty_sequence(bench: &Bench) {
+    for (frame, grey) in (1..).zip(GREYS) {
+        bench.save(&format!("in_{frame}.png"), &flat(32, 16, &[grey; 3]));
+    }
+    let args = ["convert", "in_#.png", "dome_#.png", "--from", "equirect", "--to", "equirect", "--size", "32"];
+    bench.succeed(&args);
+    bench.succeed(&[&args[..], &["--frames", "7", "-y", "--yaw", "3"]].concat());
     std::fs::remove_file(bench.path("dome_2.png")).unwrap();
     let bytes = bench.bytes("dome_3.png");
     std::fs::write(bench.path("dome_3.png"), &bytes[..bytes.len() - 20]).unwrap();
-    bench.save("dome_4.png", &picture(4, 30, 15));
-    bench.save("dome_6.png", &picture(5, 32, 16));
-    bench.save("dome_7.png", &flat(32, 16, &[0, 0, 0]));
-    let output = bench.run(&["verify", "dome_#.png", "--frames", "1-10", "--json"]);
+    bench.save("dome_4.png", &flat(30, 15, &[104; 3]));
+    let samples = Samples::U16(vec![108 * 257; 32 * 16 * 3]);
+    bench.save("dome_8.png", &EncodedImage::new(32, 16, Channels::Rgb, Depth::Sixteen, samples).unwrap());
+    bench.save("dome_9.png", &flat(32, 16, &[0; 3]));
+}
+
+#[test]
+fn every_fault_is_named_by_its_frame() {
+    let bench = Bench::new();
+    faulty_sequence(&bench);
+    let output = bench.run(&["verify", "dome_#.png", "--frames", "1-13", "--json"]);
     assert_eq!(output.status.code(), Some(1));
     let report: Value = serde_json::from_slice(&output.stdout).unwrap();
     let faults = report["faults"].as_array().unwrap().iter();
     let named: Vec<(u64, &str)> =
         faults.map(|fault| (fault["frame"].as_u64().unwrap(), fault["fault"].as_str().unwrap())).collect();
-    let expected = [(2, "missing"), (3, "damaged"), (4, "size"), (6, "frozen"), (7, "black"), (10, "missing")];
-    assert!(expected.iter().all(|fault| named.contains(fault)), "{report}");
-    assert_eq!(report["frames_with_faults"], "2-4,6,7,10", "{report}");
-    let told = text(&bench.run(&["verify", "dome_#.png"]).stdout);
+    let expected = [
+        (2, "missing"),
+        (3, "damaged"),
+        (4, "size"),
+        (6, "frozen"),
+        (7, "settings"),
+        (8, "kind"),
+        (9, "black"),
+        // Nine is as far from both neighbours as a flash is.
+        (9, "flash"),
+        (11, "flash"),
+        (13, "missing"),
+    ];
+    assert_eq!(named, expected, "{report}");
+    assert_eq!((&report["frames"], &report["whole"]), (&13.into(), &4.into()));
+    assert_eq!(report["frames_with_faults"], "2-4,6-9,11,13", "{report}");
+    let told = text(&bench.run(&["verify", "dome_#.png", "--threads", "1"]).stdout);
+    let (lines, last) = (told.lines().collect::<Vec<_>>(), "8 of 12 frames have faults: 2-4,6-9,11");
+    assert_eq!((lines.len(), lines[0], lines[8]), (9, "missing: 2", last), "{told}");
     assert_says(
         &told,
-        &["missing: 2\n", "it ends too early", "of size 30x15 instead of 32x16: 4", "frames have faults: 2-4,6,7\n"],
+        &[
+            "it ends too early",
+            "of size 30x15 instead of 32x16: 4\n",
+            "equal to the frame before: 6\n",
+            "made by other settings than most: 7\n",
+            "unlike most, ",
+            "black: 9\n",
+            "a flash, far from both neighbours: 9,11\n",
+        ],
     );
+}
+
+#[test]
+fn one_frame_is_told_of_as_one() {
+    let bench = Bench::new();
+    sequence(&bench, 1);
+    assert_eq!(bench.succeed(&["verify", "dome_#.png"]), "1 frame is whole\n");
+    let told = text(&bench.run(&["verify", "dome_#.png", "--frames", "1,2"]).stdout);
+    assert_eq!(told, "missing: 2\n1 of 2 frames has faults: 2\n");
+}
+
+#[test]
+fn files_that_may_not_be_read_are_no_faults() {
+    let bench = Bench::new();
+    sequence(&bench, 4);
+    let said = bench.fail(1, &["verify", "dome_#.png", "--memory", "10000"]);
+    assert_says(&said, &["dome_1.png needs about 9.5 KiB of memory", "32x16 pixels", "--memory"]);
+    let sheet = ["verify", "dome_#.png", "--sheet", "sheet.png", "--memory", "3M"];
+    assert_says(&bench.fail(1, &sheet), &["the sheet needs about", "it shows 4 frames", "--every"]);
+    bench.succeed(&[&sheet[..], &["--every", "2"]].concat());
+    std::fs::remove_file(bench.path("dome_2.png")).unwrap();
+    std::fs::create_dir(bench.path("dome_2.png")).unwrap();
+    assert_says(&bench.fail(1, &["verify", "dome_#.png"]), &["cannot open dome_2.png"]);
 }
 
 #[test]
@@ -68,7 +129,23 @@ fn a_sheet_shows_every_so_many_frames() {
     assert_eq!((sheet.width(), sheet.height()), (32 + 4 + 32, 16 + 4 + 16));
     let told = bench.fail(1, &["verify", "dome_#.png", "--sheet", "sheet.png"]);
     assert_says(&told, &["sheet.png", "-y"]);
-    assert_says(&bench.fail(2, &["verify", "dome_#.png", "--sheet", "dome_3.png", "-y"]), &["would replace a frame"]);
+    bench.succeed(&["verify", "dome_#.png", "--sheet", "new/sheet.png"]);
+    bench.fail(1, &["verify", "dome_#.png", "--sheet", "other/sheet.png", "--no-mkdir"]);
+}
+
+#[test]
+fn a_sheet_takes_no_place_of_a_frame() {
+    let bench = Bench::new();
+    sequence(&bench, 2);
+    std::os::unix::fs::symlink(bench.path("dome_1.png"), bench.path("link.png")).unwrap();
+    let (here, folder) = (bench.path("").display().to_string(), bench.path("dome_#.png").display().to_string());
+    let same = format!("{here}/dome_2.png");
+    for sheet in ["dome_1.png", "./dome_1.png", "dome_9.png", "link.png", &same] {
+        for pattern in ["dome_#.png", "./dome_#.png", &folder] {
+            let said = bench.fail(2, &["verify", pattern, "--sheet", sheet, "-y"]);
+            assert_says(&said, &["would replace a frame"]);
+        }
+    }
 }
 
 #[test]
@@ -76,7 +153,17 @@ fn what_is_no_sequence_is_refused() {
     let bench = Bench::new();
     sequence(&bench, 2);
     assert_says(&bench.fail(2, &["verify", "dome_1.png"]), &["no frame marker", "####"]);
-    assert_says(&bench.fail(2, &["verify", "{face}_#.png"]), &["{face}", "by itself"]);
+    for name in ["{face}", "%c", "{eye}", "{level}"] {
+        assert_says(&bench.fail(2, &["verify", &format!("{name}_#.png")]), &[&format!("has {name}"), "by itself"]);
+    }
     assert_says(&bench.fail(1, &["verify", "none_#.png"]), &["none_#.png"]);
+    for frames in [&[][..], &["--frames", "1-3"]] {
+        let said = bench.fail(1, &[&["verify", "gone/dome_#.png"], frames].concat());
+        assert_says(&said, &["gone/dome_#.png", "no folder gone"]);
+    }
+    assert_says(&bench.fail(2, &["verify", "dome_#.png", "--sheet", "s.png", "--every", "0"]), &["1 at least"]);
+    bench.save("dome_4000000000.png", &picture(1, 32, 16));
+    let said = bench.fail(2, &["verify", "dome_#.png"]);
+    assert_says(&said, &["first frame is 1 and the last 4000000000", "--frames 1-100"]);
     assert_says(&bench.fail(2, &["verify", "dome_#.png", "--every", "3"]), &["--sheet"]);
 }

@@ -1,13 +1,16 @@
-use std::hash::{DefaultHasher, Hash, Hasher};
+use std::io::ErrorKind;
 use std::path::Path;
 
+use bytemuck::cast_slice;
 use cosmorama::raster::{EncodedImage, Image, Rgba, Samples};
 use cosmorama_io::{IoError, Limits};
 use cosmorama_spec::TransferName;
 use rayon::prelude::*;
+use xxhash_rust::xxh3::xxh3_64;
 
 use super::sheet;
 use crate::colour::InputTransfer;
+use crate::diagnostic::Result;
 use crate::job::settings_of;
 use crate::source::{Files, read};
 
@@ -41,25 +44,33 @@ pub(super) struct Picture {
     pub(super) is_black: bool,
     /// Mean colours of [`CELLS`] × [`CELLS`] parts, as codes of sRGB.
     pub(super) cells: Vec<[u8; 3]>,
-    pub(super) thumbnail: Option<Image<Rgba>>,
+    /// Small picture in codes of sRGB, if it is to be shown.
+    pub(super) thumbnail: Option<Image<[u8; 3]>>,
 }
 
 /// Number of parts along each side by which pictures are compared.
 pub(super) const CELLS: usize = 16;
 
 impl Frame {
+    /// Approximate bytes of a frame without its small picture; words take a hundred.
+    pub(super) const BYTES: u64 = (size_of::<Self>() + CELLS * CELLS * size_of::<[u8; 3]>() + 100) as u64;
+
     /// Reads a frame.
-    pub(super) fn read(files: &dyn Files, (number, path): (u64, &Path), limits: &Limits, shows: bool) -> Self {
+    ///
+    /// # Errors
+    /// When there is a file, but it may not be read, or needs more memory than permitted.
+    pub(super) fn read(files: &dyn Files, (number, path): (u64, &Path), limits: &Limits, shows: bool) -> Result<Self> {
         let found = match read(files, path, limits) {
             Ok(file) => {
                 let transfer = InputTransfer::new(&TransferName::Auto, None).of(file.image.depth(), &file.metadata);
                 let settings = file.metadata.origin.as_deref().and_then(settings_of).map(str::to_owned);
                 Found::Picture(Picture { settings, ..Picture::of(&file.image, &file.image.to_light(&transfer), shows) })
             }
-            Err(IoError::Open { source, .. }) if source.kind() == std::io::ErrorKind::NotFound => Found::Nothing,
+            Err(IoError::Open { source, .. }) if source.kind() == ErrorKind::NotFound => Found::Nothing,
+            Err(error) if is_of_system(&error) => return Err(error.into()),
             Err(error) => Found::Damage(error.to_string()),
         };
-        Self { number, found }
+        Ok(Self { number, found })
     }
 
     /// Returns the picture, if there is a whole one.
@@ -71,12 +82,17 @@ impl Frame {
     }
 
     /// Returns the small picture of a frame that is to be shown, if there is a whole one.
-    pub(super) fn thumbnail(&self) -> Option<&Image<Rgba>> {
+    pub(super) fn thumbnail(&self) -> Option<&Image<[u8; 3]>> {
         self.picture().and_then(|picture| picture.thumbnail.as_ref())
     }
 }
 
 impl Picture {
+    /// Returns whether all samples equal those of another picture.
+    pub(super) fn equals(&self, other: &Self) -> bool {
+        (self.hash, self.size, &self.kind) == (other.hash, other.size, &other.kind)
+    }
+
     fn of(image: &EncodedImage, light: &Image<Rgba>, shows: bool) -> Self {
         let is_dark = |pixel: &Rgba| pixel.0[..3].iter().all(|sample| *sample == 0.0);
         Self {
@@ -93,12 +109,19 @@ impl Picture {
 
 /// Returns a hash of a picture's samples.
 fn hash(image: &EncodedImage) -> u64 {
-    let mut hasher = DefaultHasher::new();
-    match image.samples() {
-        Samples::U8(samples) => samples.hash(&mut hasher),
-        Samples::U16(samples) => samples.hash(&mut hasher),
-        Samples::Half(samples) => samples.iter().for_each(|sample| sample.to_bits().hash(&mut hasher)),
-        Samples::Float(samples) => samples.iter().for_each(|sample| sample.to_bits().hash(&mut hasher)),
+    xxh3_64(match image.samples() {
+        Samples::U8(samples) => samples,
+        Samples::U16(samples) => cast_slice(samples),
+        Samples::Half(samples) => cast_slice(samples),
+        Samples::Float(samples) => cast_slice(samples),
+    })
+}
+
+/// Returns whether the system or the limits are in the way of a file that may be whole.
+fn is_of_system(error: &IoError) -> bool {
+    match error {
+        IoError::TooLarge { .. } => true,
+        IoError::Open { source, .. } => !matches!(source.kind(), ErrorKind::UnexpectedEof | ErrorKind::InvalidData),
+        _ => false,
     }
-    hasher.finish()
 }

@@ -91,7 +91,7 @@ fn of_picture(
     let of_size = size.filter(|size| size.width != width || size.height.is_some_and(|rows| rows != height));
     let of_kind = kind.filter(|kind| *kind != picture.kind);
     let of_settings = settings.zip(picture.settings.as_deref()).filter(|(usual, own)| usual != own);
-    let is_frozen = !picture.is_black && before.is_some_and(|before| before.hash == picture.hash);
+    let is_frozen = !picture.is_black && before.is_some_and(|before| before.equals(picture));
     let is_flash = before.zip(after).is_some_and(|(before, after)| {
         let nearest = distance_squared(picture, before).min(distance_squared(picture, after));
         nearest > (FLASH * FLASH).max(TIMES * TIMES * distance_squared(before, after))
@@ -150,11 +150,23 @@ mod tests {
 
     #[test]
     fn each_fault_is_told_of_its_frame() {
-        let wide = Picture { size: (9, 4), ..grey(21) };
-        let deep = Picture { kind: "RGB, depth 16".to_owned(), ..grey(22) };
-        let pictures = [Some(grey(20)), None, Some(wide), Some(deep), Some(grey(23)), Some(grey(23)), Some(grey(24))];
-        let expected = [(2, vec!["missing"]), (3, vec!["size"]), (4, vec!["kind"]), (6, vec!["frozen"])];
-        assert_eq!(judged(pictures), expected);
+        let made_by = |settings: &str, code: u8| Some(Picture { settings: Some(settings.to_owned()), ..grey(code) });
+        let (wide, deep) =
+            (Picture { size: (9, 4), ..grey(21) }, Picture { kind: "RGB, depth 16".to_owned(), ..grey(22) });
+        let pictures =
+            [made_by("a", 20), None, Some(wide), Some(deep), Some(grey(23)), Some(grey(23)), made_by("a", 24)];
+        let rest = [made_by("b", 25), Some(grey(0)), Some(grey(0)), Some(grey(26)), Some(grey(200)), Some(grey(27))];
+        let expected = [
+            (2, vec!["missing"]),
+            (3, vec!["size"]),
+            (4, vec!["kind"]),
+            (6, vec!["frozen"]),
+            (8, vec!["settings"]),
+            (9, vec!["black"]),
+            (10, vec!["black"]),
+            (12, vec!["flash"]),
+        ];
+        assert_eq!(judged(pictures.into_iter().chain(rest)), expected);
     }
 
     #[test]

@@ -12,9 +12,11 @@ use cosmorama_io::{FrameList, FramePattern, Limits};
 use cosmorama_spec::Size;
 use rayon::prelude::*;
 
-use super::{Observer, Stop};
-use crate::diagnostic::{ConvertError, Result, usage};
-use crate::source::{Files, MemoryBudget, ViewFiles, existing_frames, probe};
+use super::{Observer, Stop, threads};
+use crate::diagnostic::{ConvertError, EVERY, FRAMES, Result, bail, usage};
+use crate::job::real_path;
+use crate::settings::LimitSettings;
+use crate::source::{Files, MemoryBudget, ViewFiles, existing_frames, light_bytes, probe};
 use frame::Frame;
 
 pub use judge::{Fault, Faults};
@@ -29,8 +31,8 @@ pub struct Verification<'a> {
     pub frames: Option<FrameList>,
     /// Size that they should have; that of most, if not given.
     pub size: Option<Size>,
-    /// Memory that decoded frames may take.
-    pub memory: MemoryBudget,
+    /// Threads, and memory for decoded frames and the contact sheet.
+    pub limits: LimitSettings,
     /// Frames that a contact sheet shows; `None` without one.
     pub sheet: Option<SheetLayout>,
 }
@@ -53,85 +55,134 @@ impl Verified {
     }
 }
 
+/// Greatest number of frames from the first to the last; more is another sequence's number, or a date.
+const MOST: u64 = 1_000_000;
+
+/// Greatest number of frames that are read together.
+const AT_ONCE: usize = 64;
+
+/// Places in a pattern where names stand that are no frame numbers.
+const NAMES: [&str; 4] = ["{face}", "%c", "{eye}", "{level}"];
+
 impl Verification<'_> {
     /// Reads every frame, and judges it by itself and beside its neighbours.
     ///
     /// # Errors
-    /// When the pattern has no frame marker, or not one frame exists; [`ConvertError::Stopped`] if the observer ends it.
+    /// When the pattern has no frame marker or leaves a face, an eye or a level open, its folder or all its frames are missing, the
+    /// first and the last are too far apart, a frame may not be read or needs more memory than permitted, or the sheet does;
+    /// [`ConvertError::Stopped`] if the observer ends it.
     pub fn run(&self, files: &dyn Files, observer: &mut dyn Observer) -> Result<Verified> {
-        let pattern = self.sequence()?;
-        let wanted = self.wanted()?;
+        let pattern = sequence(self.pattern)?;
+        let wanted = self.wanted(&pattern, files)?;
+        let memory = self.memory_beside(wanted.len())?;
+        let (pool, limits) = (threads(self.limits.threads)?, Limits::memory(memory.bytes));
         observer.begin(wanted.len());
         let mut frames: Vec<Frame> = Vec::with_capacity(wanted.len());
-        let limits = Limits::memory(self.memory.bytes);
-        let at_once = self.at_once(files, &pattern, &wanted);
-        for some in wanted.chunks(at_once) {
-            let thumbnails = |frame: u64| self.sheet.is_some_and(|sheet| sheet.shows(wanted[0], frame));
-            let read = |frame: &u64| Frame::read(files, (*frame, &pattern.path(*frame)), &limits, thumbnails(*frame));
-            frames.extend(some.par_iter().map(read).collect::<Vec<_>>());
-            for (done, frame) in (frames.len() - some.len() + 1..).zip(some) {
-                if observer.frame_done(Some(*frame)) == ControlFlow::Break(Stop) {
-                    return Err(ConvertError::Stopped { done, frames: wanted.len() });
+        let mut rest = &wanted[..];
+        while !rest.is_empty() {
+            let first = frames.len();
+            let (some, later) = rest.split_at(fitting(files, &pattern, rest, memory)?);
+            let read = |(index, number): (usize, &u64)| {
+                let is_shown = self.sheet.is_some_and(|sheet| sheet.shows(first + index));
+                Frame::read(files, (*number, &pattern.path(*number)), &limits, is_shown)
+            };
+            // All of them, so that the first in order is told of, whichever thread is the fastest.
+            let found: Vec<Result<Frame>> = pool.install(|| some.par_iter().enumerate().map(read).collect());
+            for (number, frame) in some.iter().zip(found) {
+                frames.push(frame?);
+                if observer.frame_done(Some(*number)) == ControlFlow::Break(Stop) {
+                    return Err(ConvertError::Stopped { done: frames.len(), frames: wanted.len() });
                 }
             }
+            rest = later;
         }
         let sheet = self.sheet.map(|_| sheet::of(frames.iter().filter_map(Frame::thumbnail)));
         Ok(Verified { frames: frames.len(), faults: judge::faults(&frames, self.size), sheet })
     }
 
-    fn sequence(&self) -> Result<FramePattern> {
-        match ViewFiles::new(Path::new(self.pattern)) {
-            ViewFiles::Sequence(pattern) if !self.pattern.contains("{face}") => Ok(pattern),
-            ViewFiles::Sequence(_) => {
-                Err(usage(format!("{} has {{face}}; verify the sequence of each face by itself", self.pattern)))
-            }
-            ViewFiles::One(_) => Err(usage(format!(
-                "{} has no frame marker such as #### or %04d; write one where the frame number stands",
-                self.pattern
-            ))),
-        }
-    }
-
     /// Returns the frames that there should be, in order.
-    fn wanted(&self) -> Result<Vec<u64>> {
-        if let Some(frames) = &self.frames {
-            let mut frames = frames.frames().to_vec();
-            frames.sort_unstable();
-            return Ok(frames);
+    fn wanted(&self, pattern: &FramePattern, files: &dyn Files) -> Result<Vec<u64>> {
+        let mut wanted = self.frames.as_ref().map_or_else(Vec::new, |frames| frames.frames().to_vec());
+        wanted.sort_unstable();
+        let (folder, text) = (pattern.folder(), self.pattern);
+        if !folder.is_dir() && !wanted.iter().any(|frame| files.holds(&pattern.path(*frame))) {
+            bail!(NotFound: "{text}: there is no folder {}; name one that holds frames", folder.display());
         }
-        let existing = existing_frames(&ViewFiles::new(Path::new(self.pattern)))?;
-        match (existing.first(), existing.last()) {
-            (Some(&first), Some(&last)) if last - first < MOST => Ok((first..=last).collect()),
-            _ => Ok(existing),
+        if self.frames.is_some() {
+            return Ok(wanted);
+        }
+        match existing_frames(&ViewFiles::Sequence(pattern.clone()))?[..] {
+            [first, .., last] if last - first >= MOST => Err(usage(format!(
+                "{text}: the first frame is {first} and the last {last}, too far apart for one sequence; move what does not belong \
+                 to it, or choose frames, as in {FRAMES} {first}-{}",
+                first + 99
+            ))),
+            [first, .., last] => Ok((first..=last).collect()),
+            ref few => Ok(few.to_vec()),
         }
     }
 
-    /// Returns the number of frames that fit into memory at once when decoded.
-    fn at_once(&self, files: &dyn Files, pattern: &FramePattern, wanted: &[u64]) -> usize {
-        let header = wanted.iter().find_map(|frame| probe(files, &pattern.path(*frame)).ok());
-        // Samples, and their light in floats.
-        let bytes = header.map_or(1, |header| {
-            let pixels = (header.width as u64).saturating_mul(header.height as u64);
-            pixels.saturating_mul((header.channels.count() * header.depth.bytes() + size_of::<Rgba>()) as u64)
-        });
-        (self.memory.bytes / bytes.max(1)).clamp(1, AT_ONCE) as usize
+    /// Checks that what is kept of so many frames fits into memory, and returns what is left to read them.
+    fn memory_beside(&self, frames: usize) -> Result<MemoryBudget> {
+        let memory = MemoryBudget::new(self.limits.memory);
+        let kept = Frame::BYTES.saturating_mul(frames as u64);
+        memory.allow(kept, "what is kept of frames", &format!("; there are {frames}, and {FRAMES} chooses fewer"))?;
+        let memory = memory.beside(kept);
+        let Some(sheet) = self.sheet else { return Ok(memory) };
+        let shown = sheet.count(frames);
+        let bytes = sheet::bytes(shown);
+        memory.allow(bytes, "the sheet", &format!("; it shows {shown} frames, and {EVERY} chooses fewer"))?;
+        Ok(memory.beside(bytes))
     }
 }
 
-/// Greatest number of frames between the first and the last; more is a typing error.
-const MOST: u64 = 10_000_000;
+/// Returns the sequence of a pattern.
+fn sequence(pattern: &str) -> Result<FramePattern> {
+    if let Some(name) = NAMES.into_iter().find(|name| pattern.contains(name)) {
+        return Err(usage(format!(
+            "{pattern} has {name}, but a sequence has one file for each frame; write a name there, and verify each by itself"
+        )));
+    }
+    match ViewFiles::new(Path::new(pattern)) {
+        ViewFiles::Sequence(pattern) => Ok(pattern),
+        ViewFiles::One(_) => Err(usage(format!(
+            "{pattern} has no frame marker such as #### or %04d; write one where the frame number stands"
+        ))),
+    }
+}
 
-/// Greatest number of frames that are read together.
-const AT_ONCE: u64 = 64;
+/// Returns how many of the next frames fit into memory at once when decoded.
+fn fitting(files: &dyn Files, pattern: &FramePattern, next: &[u64], memory: MemoryBudget) -> Result<usize> {
+    let mut left = memory.bytes;
+    for (count, frame) in next.iter().take(AT_ONCE).enumerate() {
+        let path = pattern.path(*frame);
+        // Nothing is decoded of a frame that is missing or damaged.
+        let Ok(header) = probe(files, &path) else { continue };
+        let bytes = light_bytes(&header);
+        memory.allow(
+            bytes,
+            &path.display().to_string(),
+            &format!("; it has {}x{} pixels", header.width, header.height),
+        )?;
+        match left.checked_sub(bytes) {
+            Some(rest) => left = rest,
+            None => return Ok(count),
+        }
+    }
+    Ok(next.len().min(AT_ONCE))
+}
 
-/// Refuses a contact sheet in the place of a frame.
+/// Refuses a contact sheet in the place of a frame, whether that exists or not.
 ///
 /// # Errors
-/// When the sheet's name is one of the sequence's.
+/// When the sheet's name is one of the sequence's, or leads to the file of a frame.
 pub fn check_sheet(pattern: &str, sheet: &Path) -> Result<()> {
     let ViewFiles::Sequence(frames) = ViewFiles::new(Path::new(pattern)) else { return Ok(()) };
-    let is_frame = frames.existing()?.into_iter().any(|frame| frames.path(frame) == sheet);
-    if is_frame {
+    let place = real_path(sheet);
+    let named = place.strip_prefix(real_path(&frames.folder())).ok().and_then(|below| frames.frame_at(below));
+    // A frame may be a link to what is elsewhere.
+    let leads = |frame: u64| real_path(&frames.path(frame)) == place;
+    if named.is_some() || frames.existing().is_ok_and(|existing| existing.into_iter().any(leads)) {
         return Err(usage(format!("{}: the sheet would replace a frame; choose another name", sheet.display())));
     }
     Ok(())

@@ -21,13 +21,16 @@ pub(super) struct Found {
     pub(super) complaints: Vec<String>,
     /// Whether there is an ICC profile before the pixels, which the decoder drops in silence where it is damaged.
     pub(super) has_profile: bool,
+    /// Kinds and bytes of metadata in ImageMagick's old form.
+    old: Vec<(String, Vec<u8>)>,
 }
 
 /// Chunks that are never carried, with what to call them. Both speak of a whole film on the display of its makers.
 const UNREAD: [(&[u8; 4], &str); 2] =
     [(b"cLLI", "the content's light level (cLLI)"), (b"mDCV", "the mastering display's colours (mDCV)")];
 
-/// Reads the chunks, and goes back to the beginning. Damage is left for the decoder to report.
+/// Reads the chunks, and goes back to the beginning. Damage is left for the decoder to report. Headers alone are read by it, too, so
+/// that they say what the whole file says.
 pub(super) fn read(source: Source<'_>) -> io::Result<Found> {
     let (mut found, mut is_behind) = (Found::default(), false);
     source.seek(SeekFrom::Start(MARK.len() as u64))?;
@@ -59,6 +62,10 @@ pub(super) fn read(source: Source<'_>) -> io::Result<Found> {
             _ => {}
         }
     }
+    // Behind all others, since PNG's own form goes first wherever it lies.
+    for (kind, bytes) in std::mem::take(&mut found.old) {
+        found.add_profile(&kind, &bytes);
+    }
     source.rewind()?;
     Ok(found)
 }
@@ -75,7 +82,7 @@ impl Found {
             return;
         }
         match chunk.raw_profile() {
-            Some((kind, bytes)) => self.add_profile(&kind, &bytes),
+            Some(old) => self.old.push(old),
             None => self.carried.texts.push(chunk),
         }
     }
@@ -125,4 +132,29 @@ pub(super) fn write(
     }
     let exif = metadata.carried.exif.as_ref().and_then(|exif| exif.block_to_write(size, metadata));
     exif.map_or(Ok(()), |block| writer.write_chunk(eXIf, &block))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Cursor;
+
+    use super::*;
+
+    /// Returns the packet of XMP in a file with these texts.
+    fn packet(texts: &[(&str, &str)]) -> Option<String> {
+        let chunk = |(keyword, text): &(&str, &str)| {
+            let data = [keyword.as_bytes(), b"\0", text.as_bytes()].concat();
+            [&(data.len() as u32).to_be_bytes(), &b"tEXt"[..], &data, &[0; 4]].concat()
+        };
+        let chunks: Vec<u8> = texts.iter().flat_map(chunk).collect();
+        read(&mut Cursor::new([&MARK[..], &chunks].concat())).unwrap().packet
+    }
+
+    #[test]
+    fn the_old_form_stands_in_for_the_own_one_in_any_order() {
+        let (own, old) = ((XMP, "own"), ("Raw profile type xmp", "\nxmp\n 3\n6f6c64\n"));
+        assert_eq!(packet(&[old]).as_deref(), Some("old"));
+        assert_eq!(packet(&[old, own]).as_deref(), Some("own"));
+        assert_eq!(packet(&[own, old]).as_deref(), Some("own"));
+    }
 }

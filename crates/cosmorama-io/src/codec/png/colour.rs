@@ -14,7 +14,7 @@ pub(super) const CICP: ChunkType = ChunkType(*b"cICP");
 
 /// Reads the chunks; by the specification the order of precedence is cICP, iCCP, sRGB, gAMA with cHRM.
 pub(super) fn metadata(info: &Info<'_>, found: Found) -> Metadata {
-    let Found { carried, packet, complaints, has_profile } = found;
+    let Found { carried, packet, complaints, has_profile, .. } = found;
     let software = carried.texts.iter().find(|text| text.keyword() == "Software").and_then(TextChunk::text);
     let orientation = carried.exif.as_ref().and_then(Exif::orientation);
     let size = orientation::turned((info.width as usize, info.height as usize), orientation);
