@@ -265,7 +265,7 @@ fn an_impulse_shows_a_weight_and_a_constant_stays() {
 /// Orders that there are not are refused, before anything is divided by them.
 #[test]
 fn integrals_have_orders_from_one_to_four() {
-    let world = cube(&CubeFace::ALL, 16, 16);
+    let world = narrow();
     let light = Light::by_direction(&world, |_| Rgba::BLACK);
     for order in [0, 1, 4, 5, u32::MAX] {
         let integrals = Classic::RepeatedIntegration { order };
