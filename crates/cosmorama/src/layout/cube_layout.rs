@@ -1,6 +1,6 @@
 use super::{FaceOrder, FacePart, FacePlacement, LayoutError, LayoutKind};
-use crate::camera::{Canvas, Mirror, PixelRect};
-use crate::sphere::CubeFace;
+use crate::camera::{CameraModel, Canvas, CubeFaceCamera, Mirror, PixelRect, Placement};
+use crate::sphere::{Angle, CubeFace, Orientation};
 
 /// The six faces of a cube in one picture.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +30,21 @@ pub struct PlacedFace {
     pub rect: PixelRect,
     /// The whole face; in half a cube only a part of it may be there.
     pub canvas: Canvas,
+}
+
+impl PlacedFace {
+    /// Returns the placement of the face's picture in the world, where the face is one of a cube of perspective views.
+    pub fn placement(&self) -> Placement {
+        // A picture that has to be turned clockwise was taken by a camera that was itself turned clockwise.
+        let turn = Angle::from_degrees(90.0 * f64::from(self.lies.quarter_turns));
+        let rolled = Orientation::from_yaw_pitch_roll(Angle::ZERO, Angle::ZERO, turn);
+        Placement {
+            orientation: rolled.within(self.face.orientation()),
+            mirror: Mirror { x: self.lies.mirrored, y: false },
+            canvas: Some(self.canvas),
+            ..Placement::new(CameraModel::CubeFace(CubeFaceCamera))
+        }
+    }
 }
 
 /// Rectangle in units of half a face: columns `left..right`, rows `top..bottom`.
