@@ -193,7 +193,19 @@ fn greatest_common_divisor(a: usize, b: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sphere::{Direction, Orientation};
+    use crate::camera::PixelPoint;
+    use crate::sphere::Direction;
+
+    #[test]
+    fn a_placed_face_looks_along_its_face_and_is_turned_with_its_picture() {
+        for placed in CubeLayout::new(LayoutKind::CrossV).faces(8) {
+            let view = placed.placement().view(8, 8).unwrap();
+            let towards = |y: f64| view.direction(PixelPoint::new(4.0, y)).unwrap();
+            let (_, up) = placed.lies.axes(placed.face);
+            assert!(towards(4.0).dot(placed.face.forward()) > 0.999_999, "{placed:?}");
+            assert!(towards(0.0).dot(up) > 0.5, "{placed:?}");
+        }
+    }
 
     #[test]
     fn the_axes_of_a_turned_picture_are_a_cameras() {
