@@ -1,7 +1,8 @@
 use cosmorama::camera::CameraError;
 use cosmorama::filter::PrepareError;
+use cosmorama::layout::LayoutError;
 use cosmorama::lighting::LobeError;
-use cosmorama::world::LightError;
+use cosmorama::world::{LightError, PictureError};
 use thiserror::Error;
 
 use crate::material::MaterialError;
@@ -32,6 +33,12 @@ pub enum SceneError {
     /// The light is not that of the world.
     #[error(transparent)]
     Light(#[from] LightError),
+    /// Pictures do not make a world.
+    #[error(transparent)]
+    Pictures(#[from] PictureError),
+    /// Faces of a size cannot be laid out.
+    #[error(transparent)]
+    Layout(#[from] LayoutError),
     /// The filter of reflections cannot be prepared.
     #[error(transparent)]
     Filter(#[from] PrepareError),

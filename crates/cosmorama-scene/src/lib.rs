@@ -40,6 +40,7 @@ mod shape;
 
 pub use camera::{Camera, Orthographic, Place};
 pub use error::SceneError;
+pub use formula::{Plate, Plates};
 pub use material::{
     Finish, Glass, Material, MaterialError, NormalMap, Paint, PictureKind, PictureReader, PictureSource, Refraction,
 };

@@ -1,6 +1,6 @@
 use super::{FaceOrder, FacePart, FacePlacement, LayoutError, LayoutKind};
-use crate::camera::{Canvas, Mirror, PixelRect};
-use crate::sphere::CubeFace;
+use crate::camera::{CameraModel, Canvas, CubeFaceCamera, Mirror, PixelRect, Placement};
+use crate::sphere::{Angle, CubeFace, Orientation};
 
 /// The six faces of a cube in one picture.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +30,21 @@ pub struct PlacedFace {
     pub rect: PixelRect,
     /// The whole face; in half a cube only a part of it may be there.
     pub canvas: Canvas,
+}
+
+impl PlacedFace {
+    /// Returns the placement of the face's picture in the world, where the face is one of a cube of perspective views.
+    pub fn placement(&self) -> Placement {
+        // A picture that has to be turned clockwise was taken by a camera that was itself turned clockwise.
+        let turn = Angle::from_degrees(90.0 * f64::from(self.lies.quarter_turns));
+        let rolled = Orientation::from_yaw_pitch_roll(Angle::ZERO, Angle::ZERO, turn);
+        Placement {
+            orientation: rolled.within(self.face.orientation()),
+            mirror: Mirror { x: self.lies.mirrored, y: false },
+            canvas: Some(self.canvas),
+            ..Placement::new(CameraModel::CubeFace(CubeFaceCamera))
+        }
+    }
 }
 
 /// Rectangle in units of half a face: columns `left..right`, rows `top..bottom`.
@@ -178,7 +193,19 @@ fn greatest_common_divisor(a: usize, b: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sphere::{Direction, Orientation};
+    use crate::camera::PixelPoint;
+    use crate::sphere::Direction;
+
+    #[test]
+    fn a_placed_face_looks_along_its_face_and_is_turned_with_its_picture() {
+        for placed in CubeLayout::new(LayoutKind::CrossV).faces(8) {
+            let view = placed.placement().view(8, 8).unwrap();
+            let towards = |y: f64| view.direction(PixelPoint::new(4.0, y)).unwrap();
+            let (_, up) = placed.lies.axes(placed.face);
+            assert!(towards(4.0).dot(placed.face.forward()) > 0.999_999, "{placed:?}");
+            assert!(towards(0.0).dot(up) > 0.5, "{placed:?}");
+        }
+    }
 
     #[test]
     fn the_axes_of_a_turned_picture_are_a_cameras() {

@@ -144,8 +144,8 @@ const CRATES: [CratePlan; 8] = [
     },
     CratePlan {
         name: "cosmorama-scene",
-        crates: &["cosmorama", "cosmorama-spec"],
-        rooms: &["sphere", "camera", "raster", "world", "filter", "render", "lighting"],
+        crates: &["cosmorama", "cosmorama-builtin", "cosmorama-spec"],
+        rooms: &["sphere", "camera", "layout", "raster", "world", "filter", "render", "lighting"],
         banned_std: &["process", "net", "env"],
         banned: &["clap", "println", "eprintln"],
         reason: "things under a world know no terminal",

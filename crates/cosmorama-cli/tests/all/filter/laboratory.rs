@@ -1,6 +1,6 @@
 //! `filters`: every filter on one conversion.
 
-use crate::bench::{Bench, assert_says};
+use crate::bench::{Bench, assert_says, picture};
 use serde_json::Value;
 
 const TARGET: [&str; 4] = ["--to", "perspective:fov=60", "--size", "96"];
@@ -32,6 +32,20 @@ fn a_table_of_error_aliasing_blur_and_cost() {
     let lines: Vec<&str> = csv.lines().collect();
     assert!(lines.len() == 2 && lines[0].starts_with("filter,reference_dB,") && lines[1].starts_with("ewa,"), "{csv}");
     assert_eq!(lines[0].matches(',').count(), lines[1].matches(',').count());
+    assert!(lines[0].contains(",setup_bytes,"), "{csv}");
+    // A filter that is named twice has one row. People read memory in MiB.
+    let table = filters(&bench, &["--only", "point,point"]);
+    assert!(table.lines().count() == 2 && table.contains("setup MiB"), "{table}");
+}
+
+#[test]
+fn one_frame_of_a_sequence() {
+    let bench = Bench::new();
+    (1..=2).for_each(|frame| bench.save(&format!("sky_{frame:02}.png"), &picture(frame, 64, 32)));
+    let args =
+        ["filters", "sky_##.png", "--from", "equirect", "--to", "perspective", "--size", "32", "--only", "point"];
+    assert_says(&bench.fail(2, &args), &["2 frames", "--frames 1"]);
+    assert_says(&bench.succeed(&[&args[..], &["--frames", "2"]].concat()), &["point"]);
 }
 
 #[test]
@@ -68,6 +82,8 @@ fn what_cannot_be_compared_is_refused() {
     fail(&["face_{face}.png", "--to", "cube"], &["6 pictures", "one"]);
     fail(&["face_{face}.png", "--to", "fulldome", "--only", "ewa,sinc"], &["sinc"]);
     fail(&["face_{face}.png", "--to", "fulldome", "--json", "--csv"], &["--csv"]);
+    fail(&["face_{face}.png", "--to", "fulldome", "--size", "1"], &["--size", "'1'", "16 pixels or more"]);
+    fail(&["face_{face}.png", "--to", "fulldome", "--size", "64x9"], &["--size", "64x9", "16 pixels or more"]);
 }
 
 #[test]
@@ -76,4 +92,18 @@ fn figures_replace_nothing_unasked() {
     std::fs::create_dir(bench.path("figures")).unwrap();
     std::fs::write(bench.path("figures/figure-8.svg"), "mine").unwrap();
     assert_says(&bench.fail(1, &["figures", "figures"]), &["figure-8.svg", "exist", "-y"]);
+}
+
+#[test]
+fn pictures_of_papers_need_a_folder_and_memory() {
+    let bench = Bench::new();
+    std::fs::write(bench.path("mine"), "mine").unwrap();
+    for verb in ["figures", "plates", "demo"] {
+        let message = bench.fail(2, &[verb, "mine"]);
+        assert_says(&message, &["mine is a file, where a folder was expected", "name another"]);
+    }
+    assert_says(&bench.fail(1, &["figures", "new", "--memory", "1M"]), &["96.0 MiB", "raise --memory"]);
+    let message = bench.fail(1, &["plates", "new", "--memory", "1G", "--size", "4k"]);
+    assert_says(&message, &["6.0 GiB", "raise --memory"]);
+    assert!(!bench.path("new").exists());
 }

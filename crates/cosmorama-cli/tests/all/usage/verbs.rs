@@ -1,6 +1,6 @@
 //! The other verbs: `info`, `explain`, `compare`, `demo`, `plates`.
 
-use crate::bench::{Bench, assert_says, eight_bits, flat, picture};
+use crate::bench::{Bench, assert_says, eight_bits, flat, picture, text};
 use serde_json::Value;
 
 #[test]
@@ -182,6 +182,8 @@ fn all_plates_and_figures_are_made_and_none_is_replaced_unasked() {
     }
     let frame = bench.load("made/plate7.png");
     assert_eq!((frame.width(), frame.height()), (122, 89));
+    let output = bench.command(&["plates", "made", "--size", "32", "-y", "--progress", "plain"]).output().unwrap();
+    assert_says(&text(&output.stderr), &["picture: 1 of 11 done", "picture: 11 of 11 done"]);
     assert_says(&bench.fail(1, &["plates", "made", "--size", "48"]), &["outputs exist", "made/plate1.png", "-y"]);
     assert_says(&bench.fail(2, &["plates", "others", "--size", "9"]), &["--size", "from 32 to 8192"]);
 }

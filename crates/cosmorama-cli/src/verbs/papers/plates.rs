@@ -1,20 +1,13 @@
-//! The seven plates and two figures of N. Greene, *Applications of world projections* (Graphics Interface '86), made
-//! anew of worlds and a model by formula.
-
-mod studio;
-mod things;
-
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
 use anyhow::Result;
-use cosmorama::raster::{Image, Rgba};
 use cosmorama::sphere::CubeFace;
 use cosmorama::world::World;
 use cosmorama_convert::{MemoryBudget, refuse_existing, threads};
+use cosmorama_scene::{Plate, Plates};
 
-use self::studio::Studio;
 use super::{NOUN, reflection_cone};
 use crate::args::PlatesArgs;
 use crate::console::Console;
@@ -22,32 +15,17 @@ use crate::diagram;
 use crate::progress::Progress;
 use crate::verbs::{make_folder, save_png, tell_made};
 
-/// A picture: its file, its content, and its maker.
-type Plate = (&'static str, &'static str, fn(&Studio) -> Result<Image<Rgba>>);
-
-/// All pictures that are not drawings.
-const PLATES: [Plate; 8] = [
-    ("plate1.png", "a lizard that reflects its environment", things::lizard),
-    ("plate2.png", "the environment on an unfolded cube", Studio::unfolded_cube),
-    ("plate3.png", "its diffuse illumination map, in Mercator's projection", Studio::diffuse_map),
-    ("plate4.png", "spheres that reflect it: matt, mixed, mirror", things::spheres),
-    ("plate5.png", "a frame with a painted sky on half a cube", Studio::painted_frame),
-    ("plate6.png", "a sky on half a cube, from a fisheye picture", Studio::half_cube),
-    ("plate7.png", "the environment in Omnimax's projection", Studio::omnimax),
-    ("figure1.png", "the rays of a pixel, and their reflection cone", things::reflection_cone),
-];
-
 /// Pictures of the worlds that the plates show.
 const SKY: &str = "world/sky.png";
 const MERCATOR: &str = "world/mercator.png";
 
 /// A drawing: its file and its maker.
-type Drawing = (&'static str, fn(&Studio) -> Result<String>);
+type Drawing = (&'static str, fn(&Plates) -> Result<String>);
 
 /// Both drawings: one reflection cone in two projections.
 const DRAWINGS: [Drawing; 2] = [
-    ("figure2-mercator", |studio| Ok(reflection_cone(&World::new([("Mercator".to_owned(), studio.map(MAP)?)])?, AXIS))),
-    ("figure2-cube", |studio| Ok(reflection_cone(studio.environment().world, AXIS))),
+    ("figure2-mercator", |plates| Ok(reflection_cone(&World::new([("Mercator".to_owned(), plates.map(MAP)?)])?, AXIS))),
+    ("figure2-cube", |plates| Ok(reflection_cone(plates.environment().world, AXIS))),
 ];
 
 /// Width of the map under the cone, in pixels where an edge has 768.
@@ -69,19 +47,19 @@ pub(in crate::verbs) fn run(PlatesArgs { size, paper }: &PlatesArgs, console: &C
     }
     let _folders = [make_folder(&paper.dir, console)?, make_folder(&paper.dir.join("world"), console)?];
     let pool = threads(paper.limits.threads)?;
-    let mut progress = Progress::of(NOUN, paper.progress, 1 + PLATES.len() + DRAWINGS.len());
-    let studio = pool.install(|| world(*size, &paper.dir, console))?;
+    let mut progress = Progress::of(NOUN, paper.progress, 1 + Plates::ALL.len() + DRAWINGS.len());
+    let plates = pool.install(|| world(*size, &paper.dir, console))?;
     progress.frame_done(None);
-    for (name, what, make) in PLATES {
+    for plate in Plates::ALL {
         let start = Instant::now();
-        let path = paper.dir.join(name);
-        pool.install(|| save_png(&path, &make(&studio)?, console))?;
-        tell_made(console, &path, what, start)?;
+        let path = file_of(&paper.dir, &plate);
+        pool.install(|| save_png(&path, &plates.picture(&plate)?, console))?;
+        tell_made(console, &path, plate.about, start)?;
         progress.frame_done(None);
     }
     for (name, make) in DRAWINGS {
         let start = Instant::now();
-        let [vector, _] = pool.install(|| diagram::save(&paper.dir, name, &make(&studio)?, &console.unfinished))?;
+        let [vector, _] = pool.install(|| diagram::save(&paper.dir, name, &make(&plates)?, &console.unfinished))?;
         tell_made(console, &vector, "a reflection cone on that map, also as PNG", start)?;
         progress.frame_done(None);
     }
@@ -91,27 +69,32 @@ pub(in crate::verbs) fn run(PlatesArgs { size, paper }: &PlatesArgs, console: &C
 }
 
 /// Makes the worlds that the plates show, and writes them.
-fn world(size: usize, folder: &Path, console: &Console) -> Result<Studio> {
+fn world(size: usize, folder: &Path, console: &Console) -> Result<Plates> {
     let start = Instant::now();
-    let studio = Studio::new(size)?;
-    save_png(&folder.join(SKY), studio.sky(), console)?;
-    save_png(&folder.join(MERCATOR), &studio.mercator()?, console)?;
-    for (face, picture) in studio.faces() {
-        save_png(&folder.join(file_of(face)), picture, console)?;
+    let plates = Plates::new(size)?;
+    save_png(&folder.join(SKY), plates.sky(), console)?;
+    save_png(&folder.join(MERCATOR), &plates.mercator()?, console)?;
+    for (face, picture) in plates.faces() {
+        save_png(&folder.join(face_file(face)), picture, console)?;
     }
     tell_made(console, &folder.join("world/{face}.png"), "the environment, sky first", start)?;
-    Ok(studio)
+    Ok(plates)
 }
 
 /// Returns every file that is written.
 fn outputs(folder: &Path) -> Vec<PathBuf> {
-    let pictures = PLATES.into_iter().map(|(name, ..)| folder.join(name));
-    let worlds = CubeFace::ALL.map(file_of).into_iter().chain([SKY, MERCATOR].map(str::to_owned));
+    let plates = Plates::ALL.iter().map(|plate| file_of(folder, plate));
+    let worlds = CubeFace::ALL.map(face_file).into_iter().chain([SKY, MERCATOR].map(str::to_owned));
     let drawings = DRAWINGS.into_iter().flat_map(|(name, _)| diagram::files(folder, name));
-    pictures.chain(worlds.map(|name| folder.join(name))).chain(drawings).collect()
+    plates.chain(worlds.map(|name| folder.join(name))).chain(drawings).collect()
+}
+
+/// Returns the file of a plate.
+fn file_of(folder: &Path, plate: &Plate) -> PathBuf {
+    folder.join(plate.name).with_extension("png")
 }
 
 /// Returns the file of a face of the environment.
-fn file_of(face: CubeFace) -> String {
+fn face_file(face: CubeFace) -> String {
     format!("world/{}.png", face.name())
 }

@@ -1,4 +1,5 @@
-use anyhow::Result;
+mod things;
+
 use cosmorama::camera::{
     CameraModel, CylinderCamera, CylinderKind, FieldOfView, FisheyeCamera, Footprint, OmnimaxCamera, PerspectiveCamera,
     Placement, View,
@@ -11,12 +12,15 @@ use cosmorama::render::Resampler;
 use cosmorama::sphere::{Angle, CubeFace, Direction, Orientation};
 use cosmorama::world::{Light, World};
 use cosmorama_builtin::{DemoScenery, DemoSky, PaintedSky, Radiance, picture};
-use cosmorama_convert::face_placement;
-use cosmorama_scene::Sky;
-use cosmorama_spec::Cube;
 
-/// The worlds that the plates show.
-pub(super) struct Studio {
+use crate::error::SceneError;
+use crate::shade::Sky;
+
+/// The seven plates of N. Greene, *Applications of world projections* (Graphics Interface '86), made anew of worlds and a model
+/// by formula.
+///
+/// A sky is photographed, projected onto half a cube, and stands behind a scene: the environment.
+pub struct Plates {
     /// Edge of the environment's faces, in pixels.
     edge: usize,
     sky: Image<Rgba>,
@@ -24,6 +28,18 @@ pub(super) struct Studio {
     faces: Vec<(CubeFace, Image<Rgba>)>,
     environment: Lit,
 }
+
+/// A plate, or the figure that is a picture.
+#[derive(Clone, Copy)]
+pub struct Plate {
+    /// Name: `plate1` to `plate7`, or `figure1`.
+    pub name: &'static str,
+    /// Content.
+    pub about: &'static str,
+    make: fn(&Plates) -> Result<Image<Rgba>>,
+}
+
+type Result<T> = std::result::Result<T, SceneError>;
 
 /// A world with its light.
 struct Lit {
@@ -47,9 +63,32 @@ const PAINTED: (f64, f64, f64) = (75.0, 22.0, 12.0);
 /// Light of the map of matt surfaces where nothing is seen.
 const UNSEEN: Rgba = Rgba::TRANSPARENT;
 
-impl Studio {
-    /// Makes the worlds: a sky is photographed, projected onto half a cube, and stands behind a scene.
-    pub(super) fn new(edge: usize) -> Result<Self> {
+impl Plates {
+    /// All plates, and the figure that is a picture.
+    pub const ALL: [Plate; 8] = [
+        Plate { name: "plate1", about: "a lizard that reflects its environment", make: things::lizard },
+        Plate { name: "plate2", about: "the environment on an unfolded cube", make: Self::unfolded_cube },
+        Plate {
+            name: "plate3",
+            about: "its diffuse illumination map, in Mercator's projection",
+            make: Self::diffuse_map,
+        },
+        Plate { name: "plate4", about: "spheres that reflect it: matt, mixed, mirror", make: things::spheres },
+        Plate { name: "plate5", about: "a frame with a painted sky on half a cube", make: Self::painted_frame },
+        Plate { name: "plate6", about: "a sky on half a cube, from a fisheye picture", make: Self::half_cube },
+        Plate { name: "plate7", about: "the environment in Omnimax's projection", make: Self::omnimax },
+        Plate {
+            name: "figure1",
+            about: "the rays of a pixel, and their reflection cone",
+            make: things::reflection_cone,
+        },
+    ];
+
+    /// Makes the worlds, of faces with an edge of so many pixels, which is made even.
+    ///
+    /// # Errors
+    /// If the edge is 0.
+    pub fn new(edge: usize) -> Result<Self> {
         let edge = edge.next_multiple_of(2);
         let camera = CameraModel::from(FisheyeCamera { field_of_view: FISHEYE, ..FisheyeCamera::default() });
         let upward = Orientation::from_yaw_pitch_roll(Angle::ZERO, Angle::from_degrees(90.0), Angle::ZERO);
@@ -71,56 +110,70 @@ impl Studio {
     }
 
     /// Returns the photograph of the sky.
-    pub(super) fn sky(&self) -> &Image<Rgba> {
+    pub fn sky(&self) -> &Image<Rgba> {
         &self.sky
     }
 
     /// Lists the pictures of the environment's faces.
-    pub(super) fn faces(&self) -> impl Iterator<Item = (CubeFace, &Image<Rgba>)> {
+    pub fn faces(&self) -> impl Iterator<Item = (CubeFace, &Image<Rgba>)> {
         self.faces.iter().map(|(face, picture)| (*face, picture))
     }
 
+    /// Makes a plate.
+    ///
+    /// # Errors
+    /// If the plate is too small to have pixels.
+    pub fn picture(&self, plate: &Plate) -> Result<Image<Rgba>> {
+        (plate.make)(self)
+    }
+
     /// Returns the environment, for things to stand under.
-    pub(super) fn environment(&self) -> Sky<'_> {
+    pub fn environment(&self) -> Sky<'_> {
         Sky::new(&self.environment.world, &self.environment.light)
     }
 
     /// Returns the number of pixels that is this many where an edge has 768.
-    pub(super) fn scaled(&self, pixels: usize) -> usize {
+    fn scaled(&self, pixels: usize) -> usize {
         (pixels * self.edge / EDGE).max(1)
     }
 
     /// Returns a view of a frame's size.
-    pub(super) fn frame(&self, camera: impl Into<CameraModel>, orientation: Orientation) -> Result<View> {
+    fn frame(&self, camera: impl Into<CameraModel>, orientation: Orientation) -> Result<View> {
         let (width, height) = (self.scaled(FRAME.0), self.scaled(FRAME.1));
         Ok(Placement { orientation, ..Placement::new(camera.into()) }.view(width, height)?)
     }
 
-    /// Returns Mercator's map of a width.
-    pub(super) fn map(&self, width: usize) -> Result<View> {
+    /// Returns Mercator's map, so many pixels wide where an edge has 768.
+    ///
+    /// # Errors
+    /// If the map has no pixels.
+    pub fn map(&self, width: usize) -> Result<View> {
         let camera = CameraModel::from(CylinderCamera::new(CylinderKind::Mercator));
         Ok(camera.view(self.scaled(width), self.scaled(width))?)
     }
 
     /// Makes the environment's map by Mercator.
-    pub(super) fn mercator(&self) -> Result<Image<Rgba>> {
+    ///
+    /// # Errors
+    /// If the map has no pixels.
+    pub fn mercator(&self) -> Result<Image<Rgba>> {
         Ok(self.environment.seen(&self.map(EDGE)?))
     }
 
     /// Makes Plate 2: the environment on an unfolded cube.
-    pub(super) fn unfolded_cube(&self) -> Result<Image<Rgba>> {
+    fn unfolded_cube(&self) -> Result<Image<Rgba>> {
         self.environment.sheet(&cross(None), self.edge / 4 * 2)
     }
 
     /// Makes Plate 3: the light that falls on what is matt.
-    pub(super) fn diffuse_map(&self) -> Result<Image<Rgba>> {
+    fn diffuse_map(&self) -> Result<Image<Rgba>> {
         let Lit { world, light } = &self.environment;
         let prepared = PreparedLight::new(world, light, &[Lobe::LAMBERT])?;
         Ok(prepared.picture(&self.map(MAP)?, &Lobe::LAMBERT, UNSEEN))
     }
 
     /// Makes Plate 5: a frame with a painted sky.
-    pub(super) fn painted_frame(&self) -> Result<Image<Rgba>> {
+    fn painted_frame(&self) -> Result<Image<Rgba>> {
         let painted = Lit::on_half_cube(self.edge, |view| picture(&PaintedSky, view))?;
         let (field, yaw, pitch) = PAINTED;
         let [yaw, pitch] = [yaw, pitch].map(Angle::from_degrees);
@@ -131,12 +184,12 @@ impl Studio {
     }
 
     /// Makes Plate 6: the sky on half a cube.
-    pub(super) fn half_cube(&self) -> Result<Image<Rgba>> {
+    fn half_cube(&self) -> Result<Image<Rgba>> {
         self.half.sheet(&cross(Some(CubeFace::Up)), self.edge / 4 * 2)
     }
 
     /// Makes Plate 7: the environment as a frame of film.
-    pub(super) fn omnimax(&self) -> Result<Image<Rgba>> {
+    fn omnimax(&self) -> Result<Image<Rgba>> {
         let camera = CameraModel::Omnimax(OmnimaxCamera::default());
         let mut film = self.environment.seen(&camera.view(self.scaled(FILM.0), self.scaled(FILM.1))?);
         film.lay_over(Rgba::BLACK);
@@ -205,6 +258,5 @@ fn cross(half: Option<CubeFace>) -> CubeLayout {
 }
 
 fn view_of(face: &PlacedFace) -> Result<View> {
-    let placement = face_placement(&Cube::default(), face.face, face.lies, Some(face.canvas), Orientation::IDENTITY);
-    Ok(placement.view(face.rect.width(), face.rect.height())?)
+    Ok(face.placement().view(face.rect.width(), face.rect.height())?)
 }
