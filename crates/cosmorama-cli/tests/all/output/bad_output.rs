@@ -61,8 +61,8 @@ fn a_folder_that_is_missing_or_read_only() {
     let name = format!("{}.png", "x".repeat(300));
     let message = bench.fail(1, &["convert", "sky.png", &name, "--to", "omnimax", "--size", "32"]);
     assert_says(&message, &["cannot write xxx", "choose another name"]);
-    let message = bench.fail(1, &["explain", "sky.png", "--to", "omnimax", "--output", "sky.png/diagrams"]);
-    assert_says(&message, &["the folder sky.png/diagrams cannot be made", "choose another"]);
+    let message = bench.fail(2, &["explain", "sky.png", "--to", "omnimax", "--output", "sky.png/diagrams"]);
+    assert_says(&message, &["sky.png is a file, where a folder was expected", "name another"]);
     let piped = bench
         .command(&["convert", "sky.png", "-", "--format", "png", "--to", "omnimax"])
         .env("TMPDIR", bench.path("sky.png"))
