@@ -64,9 +64,9 @@ pub(crate) fn light(world: BuiltinWorld, view: &View, primaries: &Primaries) -> 
 
 /// Computes the directions of a file's pixels.
 fn pixels(output: &OutputFile, map: DirectionMap) -> Result<Image<DirectionPixel>> {
-    output.job.target.files[output.index].sheet.assemble(DirectionPixel::default(), |index| {
-        Ok(map.pixels(&output.views[index].view))
-    })
+    output.job.target.files[output.index]
+        .sheet
+        .assemble(DirectionPixel::default(), |index| Ok(map.pixels(&output.views[index].view)))
 }
 
 /// Writes a map of directions, with a plane for each value of its pixels.

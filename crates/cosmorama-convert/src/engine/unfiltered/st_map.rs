@@ -8,8 +8,8 @@ use cosmorama::world::{ST_NOWHERE, StPixel};
 use cosmorama_io::{Header, WriteOptions, write_planes};
 
 use crate::diagnostic::{Result, ST_MAP, TO, bail};
-use crate::engine::unfiltered::OutputFile;
 use crate::engine::Stage;
+use crate::engine::unfiltered::OutputFile;
 use crate::input::{Input, InputView};
 use crate::job::ConvertJob;
 use crate::packing::Place;
