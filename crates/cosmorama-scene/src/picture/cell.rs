@@ -193,8 +193,11 @@ impl<'a> Pixel<'a> {
             return Some(world.shade(&surface, reflected));
         }
         let beams = Beam::of(&seen.wall.met, &surface.normal, &part.material, object.shape.solid());
-        let widest = Beam::widest(&beams);
-        let split = widest > STRAIGHT && seen.depth < MOST || widest > ROUGH && seen.depth < AT_ONCE;
+        let widest = Beam::widest(&beams, surface.reflected());
+        // A blurred world has no detail that smaller parts would show.
+        let blur = surface.gloss.blur();
+        let split =
+            widest > STRAIGHT.max(blur) && seen.depth < MOST || widest > ROUGH.max(blur) && seen.depth < AT_ONCE;
         if split && seen.may_split {
             return None;
         }

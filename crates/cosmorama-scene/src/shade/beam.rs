@@ -51,9 +51,11 @@ impl Beam {
         footprint.widened_by(Covariance::round(footprint.direction, breadth * breadth))
     }
 
-    /// Returns the longest change of direction over a pixel; that of faint beams counts by their part of the light.
-    pub(crate) fn widest(beams: &[Self]) -> f64 {
-        beams.iter().map(|beam| beam.ray.widest() * (beam.heaviest() / HEAVY).min(1.0)).fold(0.0, f64::max)
+    /// Returns the longest change of direction over a pixel; that of faint beams, of which a surface reflects only a part,
+    /// counts by their part of the light.
+    pub(crate) fn widest(beams: &[Self], reflected: f64) -> f64 {
+        let counted = |beam: &Self| beam.ray.widest() * (beam.heaviest() * reflected / HEAVY).min(1.0);
+        beams.iter().map(counted).fold(0.0, f64::max)
     }
 
     /// Returns the greatest part of any colour's light.

@@ -28,6 +28,14 @@ pub(crate) enum Gloss {
 }
 
 impl Gloss {
+    /// Returns the angle by which it blurs the world, in radians: the lobe's α.
+    pub(crate) fn blur(self) -> f64 {
+        match self {
+            Self::Chrome => 0.0,
+            Self::World(alpha) => alpha,
+        }
+    }
+
     /// Returns what all of a material reflects; `None` if that differs from place to place.
     pub(crate) fn of(material: &Material) -> Option<Self> {
         if material.chrome {
@@ -38,6 +46,11 @@ impl Gloss {
 }
 
 impl Surface {
+    /// Returns the part of light that it reflects, of the colour of which it reflects most.
+    pub(crate) fn reflected(&self) -> f64 {
+        self.specular.max_element()
+    }
+
     /// Returns whether some light is scattered.
     pub(crate) fn is_matt(&self) -> bool {
         self.diffuse != DVec3::ZERO

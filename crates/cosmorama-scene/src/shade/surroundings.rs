@@ -1,5 +1,5 @@
 use cosmorama::camera::Footprint;
-use cosmorama::filter::{Bilinear, EwaPyramid, Filter, FilterKind, FilterSettings, Kernel, Prepared};
+use cosmorama::filter::{Bilinear, CrossSection, EwaPyramid, Filter, FilterKind, FilterSettings, Kernel, Prepared};
 use cosmorama::raster::Rgba;
 use cosmorama::sphere::{Angle, Direction, DirectionJacobian};
 use glam::{DMat3, DVec3, Vec3};
@@ -35,9 +35,11 @@ pub struct Surroundings<'a> {
     occlusion: bool,
 }
 
-/// Kernel of parts of pixels: [`Kernel::LIGHT`], whose weights add to one over parts side by side. Where parts are less
-/// than a texel it interpolates, about as sharply as a tent.
-const SIDE_BY_SIDE: Kernel = Kernel { floor: 0.9, ..Kernel::LIGHT };
+/// Kernel of parts of pixels: a B-spline as wide as [`Kernel::LIGHT`], whose weights all but add to one over parts side by
+/// side. Where parts are less than a texel it interpolates, about as sharply as a tent. Rows of texels are averaged at
+/// once by it, since it is a cubic.
+const SIDE_BY_SIDE: Kernel =
+    Kernel { scale: 1.245, floor: 0.8, ..Kernel::uniform(CrossSection::Cubic { b: 1.0, c: 0.0 }) };
 
 /// Change of direction over a pixel, in radians, from which a footprint is looked up on a cube, five texels of it.
 const WIDE: f64 = 0.03;

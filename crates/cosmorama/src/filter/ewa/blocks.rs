@@ -1,5 +1,7 @@
 //! Average of the texels under a kernel, eight texels of a row at a time and without a list of taps.
 
+use std::f64::consts::FRAC_1_SQRT_2;
+
 use arrayvec::ArrayVec;
 use fearless_simd::{Simd, f32x4, f32x8, prelude::*};
 use glam::DVec2;
@@ -17,6 +19,21 @@ pub(crate) struct LaneKernel {
     pub(crate) cubics: Cubics,
     /// Whether averages are clamped to the texels under the footprint.
     pub(crate) anti_ringing: bool,
+}
+
+impl LaneKernel {
+    /// Returns whether the average needs texels on all sides of the footprint's middle.
+    pub(crate) fn needs_surroundings(&self) -> bool {
+        self.kernel.centred || self.anti_ringing
+    }
+
+    /// Returns whether the texels that the average needs lie under every footprint. A plain mean by positive weights needs
+    /// but one, and every disc of the radius √½ holds one.
+    pub(crate) fn always_averages(&self) -> bool {
+        let Kernel { floor, .. } = self.kernel;
+        let is_plain = !self.needs_surroundings() && self.cubics.are_positive();
+        floor >= 1.0 || is_plain && floor * self.kernel.radius() > FRAC_1_SQRT_2
+    }
 }
 
 /// Number of texels in a block.

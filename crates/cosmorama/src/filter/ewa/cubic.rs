@@ -20,6 +20,11 @@ impl Cubics {
         Some(Self { fine: coefficients(kernel.fine)?, coarse: coefficients(kernel.coarse)? })
     }
 
+    /// Returns whether no weight is negative: the outer parts, of which x³ has the greater share, have no lobes.
+    pub(crate) fn are_positive(&self) -> bool {
+        [self.fine, self.coarse].iter().all(|[.., square]| *square >= 0.0)
+    }
+
     /// Blends the two polynomials for each lane.
     #[inline(always)]
     pub(crate) fn blend<S: Simd, V: Lanes<S>>(&self, coarseness: V) -> Curve<V> {

@@ -21,11 +21,11 @@ pub(crate) struct Direct {
 }
 
 impl Direct {
-    /// Prepares the average for a kernel. Returns `None` if a cross-section is not a cubic. Returns `None` also if the
-    /// kernel's floor is below 1, since there might be no texel under a footprint.
+    /// Prepares the average for a kernel. Returns `None` if a cross-section is not a cubic, or if there might be no texels
+    /// under a footprint that its kind of average needs.
     pub(crate) fn new(kernel: &Kernel, anti_ringing: bool) -> Option<Self> {
-        let cubics = Cubics::of(kernel).filter(|_| kernel.floor >= 1.0)?;
-        Some(Self { kernel: LaneKernel { kernel: *kernel, cubics, anti_ringing }, level: Level::new() })
+        let kernel = LaneKernel { kernel: *kernel, cubics: Cubics::of(kernel)?, anti_ringing };
+        kernel.always_averages().then(|| Self { kernel, level: Level::new() })
     }
 
     /// Averages a footprint. `view` is the index of the view that shows its centre, if the caller knows it. Returns

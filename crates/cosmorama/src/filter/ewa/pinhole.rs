@@ -245,7 +245,7 @@ impl Pinholes {
                 }
                 other.fill(simd, kernel, &plane, light, &mut blocks)?;
             }
-            if !blocks.surround() {
+            if kernel.needs_surroundings() && !blocks.surround() {
                 return None;
             }
         }
