@@ -46,7 +46,7 @@ impl Origin {
         let still = all().filter(|job| job.movement.is_none()).flat_map(|job| &job.target.views);
         let still: Vec<_> = still.map(|target| seen(&target.view)).collect();
         let files: Vec<_> = job.target.files.iter().map(|file| file.levels().collect::<Vec<_>>()).collect();
-        let shown: Vec<_> = job.target.views.iter().map(|view| (&view.name, view.eye, view.level)).collect();
+        let shown: Vec<_> = job.target.views.iter().map(|view| (view.eye, view.level)).collect();
         let geometry = digest(&(views, still, files, shown, job.target.envmap, job.target.panorama, st_map));
         let blur = job.movement.as_ref().and_then(|movement| movement.blur);
         let filter = digest(&(job.filter, &job.lighting, blur.map(|blur| (blur.method, blur.shutter.curve))));

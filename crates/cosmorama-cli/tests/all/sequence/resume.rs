@@ -140,6 +140,12 @@ fn digests_are_of_what_is_computed() {
         &bench,
         &["convert", "sky_#.png", "out_#.png", "--to", "fulldome:yaw=90", "--size", "16x16", "--kernel", "adaptive"],
     );
+    // Frames may be moved.
+    for frame in 1..=4 {
+        std::fs::copy(bench.path(&format!("out_{frame}.png")), bench.path(&format!("moved_{frame}.png"))).unwrap();
+    }
+    let moved = with(&["--yaw", "90"]);
+    kept(&bench, &[&moved[..2], &["moved_#.png"], &moved[3..]].concat());
     for (more, part) in [
         (&["--yaw", "90", "--transfer", "gamma2.2"][..], "other colours"),
         (&["--yaw", "90", "--in-transfer", "linear"], "other colours"),
