@@ -7,6 +7,7 @@ use exr::block::chunk::{Chunk, TileCoordinates};
 use exr::block::lines::LineRef;
 use exr::block::reader::{ChunksReader, Reader};
 use exr::block::{BlockIndex, UncompressedBlock};
+use exr::compression::Compression;
 use exr::error::Error;
 use exr::meta::attribute::{EnvironmentMap, SampleType};
 use exr::meta::header::Header as Part;
@@ -21,6 +22,7 @@ use super::offer::Offer;
 use super::selection::Selection;
 use super::window::Crop;
 use crate::codec::behind::{count_marks, next_bytes, skip_padding};
+use crate::codec::capacity::{self, DEFLATE};
 use crate::codec::interface::{Source, is_beside_others, whole_image};
 use crate::{Attribute, Carried, Choice, EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata};
 
@@ -40,9 +42,20 @@ const BATCH_BYTES: u128 = 1 << 26;
 /// Reads a file's header for the picture that a choice permits, and for the channels beside it.
 pub(crate) fn probe(path: &Path, source: Source<'_>, choice: &Choice) -> Result<Header, IoError> {
     let attributes = attributes::read(path, &mut *source)?;
-    let reader = open(path, source)?;
+    let reader = open(path, &mut *source)?;
     let (header, selection, _) = announce(path, reader.headers(), Wanted::Picture(choice))?;
-    Ok(with_attributes(header, attributes, selection.part))
+    let most = pixels_per_byte(&reader.headers()[selection.part]);
+    drop(reader);
+    capacity::held(path, source, with_attributes(header, attributes, selection.part), most)
+}
+
+/// Returns the most pixels that a byte of a file can hold; each has at least two bytes.
+fn pixels_per_byte(part: &Part) -> u64 {
+    match part.compression {
+        // Squares of 8 × 8 pixels, or runs, packed a second time.
+        Compression::DWAA(_) | Compression::DWAB(_) => 1 << 16,
+        _ => DEFLATE,
+    }
 }
 
 /// Adds the attributes of the part that is read.
@@ -56,8 +69,11 @@ fn with_attributes(mut header: Header, mut parts: Vec<Vec<Attribute>>, part: usi
 /// Reads a file's header for the two channels of its st map.
 pub(crate) fn probe_pairs(path: &Path, source: Source<'_>) -> Result<Header, IoError> {
     attributes::read(path, &mut *source)?;
-    let reader = open(path, source)?;
-    Ok(announce(path, reader.headers(), Wanted::Pair)?.0)
+    let reader = open(path, &mut *source)?;
+    let (header, selection, _) = announce(path, reader.headers(), Wanted::Pair)?;
+    let most = pixels_per_byte(&reader.headers()[selection.part]);
+    drop(reader);
+    capacity::held(path, source, header, most)
 }
 
 /// Reads the first part that holds a picture, at its largest resolution.
