@@ -21,7 +21,7 @@ pub(crate) struct InfoArgs {
     pub(crate) input: String,
     /// Decode every frame of a pattern and every picture of a world, to find damaged ones
     ///
-    /// Without it, a single picture of up to 64 megapixels is decoded. Of others headers alone may be read, which the report says.
+    /// Without it, a single picture is decoded, if that takes up to 1 GiB. Of others headers alone may be read, which the report says.
     #[arg(long)]
     pub(crate) check: bool,
     /// Print the same as JSON

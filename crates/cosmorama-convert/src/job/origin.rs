@@ -15,7 +15,7 @@ use crate::settings::Conversion;
 use crate::source::Files;
 use crate::target::time;
 
-/// What all frames of a run share: the program's version, with digests of its settings.
+/// Part that all frames of a run share: the program's version, with digests of its settings.
 #[derive(Clone, Debug)]
 pub(crate) struct Origin {
     shared: String,

@@ -5,8 +5,7 @@ use cosmorama::raster::{Channels, Depth, EncodedImage, FramePool, Samples};
 use image::codecs::tga::{TgaDecoder, TgaEncoder};
 use image::{ColorType, ExtendedColorType, ImageDecoder};
 
-use crate::codec::capacity;
-use crate::codec::interface::{Codec, Sink, Source, whole_image};
+use crate::codec::interface::{Codec, Sink, Source, held, whole_image};
 use crate::{Format, Header, ImageFile, IoError, Limits, Metadata, WriteOptions};
 
 const FORMAT: Format = Format::Tga;
@@ -25,7 +24,7 @@ impl Codec for Tga {
 
     fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
         let header = header(path, &decoder(path, &mut *source)?)?;
-        capacity::held(path, source, header, PIXELS_PER_BYTE)
+        held(path, source, header, PIXELS_PER_BYTE)
     }
 
     fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {

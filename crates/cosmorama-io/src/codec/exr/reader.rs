@@ -22,8 +22,8 @@ use super::offer::Offer;
 use super::selection::Selection;
 use super::window::Crop;
 use crate::codec::behind::{count_marks, next_bytes, skip_padding};
-use crate::codec::capacity::{self, DEFLATE};
-use crate::codec::interface::{Source, is_beside_others, whole_image};
+use crate::codec::interface::{Source, contained, held, is_beside_others, whole_image};
+use crate::header::DEFLATE;
 use crate::{Attribute, Carried, Choice, EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata};
 
 const FORMAT: Format = Format::Exr;
@@ -46,7 +46,7 @@ pub(crate) fn probe(path: &Path, source: Source<'_>, choice: &Choice) -> Result<
     let (header, selection, _) = announce(path, reader.headers(), Wanted::Picture(choice))?;
     let most = pixels_per_byte(&reader.headers()[selection.part]);
     drop(reader);
-    capacity::held(path, source, with_attributes(header, attributes, selection.part), most)
+    held(path, source, with_attributes(header, attributes, selection.part), most)
 }
 
 /// Returns the most pixels that a byte of a file can hold; each has at least two bytes.
@@ -73,7 +73,7 @@ pub(crate) fn probe_pairs(path: &Path, source: Source<'_>) -> Result<Header, IoE
     let (header, selection, _) = announce(path, reader.headers(), Wanted::Pair)?;
     let most = pixels_per_byte(&reader.headers()[selection.part]);
     drop(reader);
-    capacity::held(path, source, header, most)
+    held(path, source, header, most)
 }
 
 /// Reads the first part that holds a picture, at its largest resolution.
@@ -313,7 +313,11 @@ pub(super) fn each_block(
         if !batch.iter().all(|chunk| dwa::is_plausible(chunk, compression, block_bytes)) {
             return Err(Error::Invalid("a chunk larger than its block".into()));
         }
-        let decompress = |chunk: Chunk| UncompressedBlock::decompress_chunk(chunk, meta, false);
+        // Other threads do not know that this one's panics are caught.
+        let decompress = |chunk: Chunk| {
+            let block = contained(|| UncompressedBlock::decompress_chunk(chunk, meta, false));
+            block.unwrap_or_else(|reason| Err(Error::Invalid(reason.into())))
+        };
         let blocks: Result<Vec<UncompressedBlock>, Error> = if is_beside_others() {
             batch.into_iter().map(decompress).collect()
         } else {

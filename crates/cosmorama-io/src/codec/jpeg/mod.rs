@@ -13,8 +13,7 @@ use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
 use self::marks::Beside;
-use crate::codec::capacity;
-use crate::codec::interface::{Codec, Sink, Source, whole_image};
+use crate::codec::interface::{Codec, Sink, Source, held, whole_image};
 use crate::metadata::{ADOBE_GAMMA, gpano, iptc, orientation};
 use crate::{Carried, Exif, Format, Header, ImageFile, IoError, Limits, Metadata, WriteOptions};
 
@@ -40,7 +39,7 @@ impl Codec for Jpeg {
         if beside.has_comment {
             Arc::make_mut(&mut header.metadata.carried).unread.push("a comment (COM)");
         }
-        capacity::held(path, source, header, PIXELS_PER_BYTE)
+        held(path, source, header, PIXELS_PER_BYTE)
     }
 
     fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
@@ -57,7 +56,7 @@ impl Codec for Jpeg {
             return Err(IoError::several(path, FORMAT, count, "pictures one behind the other"));
         }
         limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
-        capacity::check(path, bytes.len() as u64, &header, PIXELS_PER_BYTE)?;
+        header.check_capacity(path, bytes.len() as u64, PIXELS_PER_BYTE)?;
         let output = if header.channels == Channels::Grey { ColorSpace::Luma } else { ColorSpace::RGB };
         decoder.set_options(options().jpeg_set_out_colorspace(output));
         let mut samples = pool.take(header.width * header.height * header.channels.count());

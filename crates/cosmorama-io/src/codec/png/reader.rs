@@ -8,8 +8,8 @@ use png::{BitDepth, ColorType, Decoder, DecodingError, Info, Reader, Transformat
 use super::carried::{self, Found};
 use super::colour;
 use crate::codec::behind::{next_bytes, skip_padding};
-use crate::codec::capacity::{self, DEFLATE};
-use crate::codec::interface::{Source, whole_image};
+use crate::codec::interface::{Source, held, whole_image};
+use crate::header::DEFLATE;
 use crate::{Format, Header, ImageFile, IoError, Limits};
 
 const FORMAT: Format = Format::Png;
@@ -26,7 +26,7 @@ pub(super) const MARK: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 pub(crate) fn probe(path: &Path, source: Source<'_>) -> Result<Header, IoError> {
     let found = carried::read(&mut *source).map_err(|error| IoError::open(path, error))?;
     let header = header(&decoder(path, &mut *source)?, found);
-    capacity::held(path, source, header, PIXELS_PER_BYTE)
+    held(path, source, header, PIXELS_PER_BYTE)
 }
 
 pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {

@@ -7,8 +7,7 @@ use rayon::prelude::*;
 
 use super::packing::Packed;
 use super::texel::Texels;
-use crate::codec::capacity;
-use crate::codec::interface::{Codec, Sink, Source, is_beside_others, whole_image};
+use crate::codec::interface::{Codec, Sink, Source, held, is_beside_others, whole_image};
 use crate::{EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata, WriteOptions};
 
 /// Supported textures, for messages.
@@ -51,7 +50,7 @@ impl<T: TextureFormat> Codec for T {
     fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
         let texture = self.texture(path, &mut *source)?;
         let header = texture.header(T::FORMAT);
-        if texture.packed.is_some() { Ok(header) } else { capacity::held(path, source, header, PIXELS_PER_BYTE) }
+        if texture.packed.is_some() { Ok(header) } else { held(path, source, header, PIXELS_PER_BYTE) }
     }
 
     fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, _: &FramePool) -> Result<ImageFile, IoError> {

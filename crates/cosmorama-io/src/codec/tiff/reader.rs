@@ -8,8 +8,8 @@ use tiff::tags::{CompressionMethod, SampleFormat, Tag};
 use tiff::{ColorType, TiffError};
 
 use super::{carried, extent};
-use crate::codec::capacity::{self, DEFLATE};
 use crate::codec::interface::{Source, whole_image};
+use crate::header::DEFLATE;
 use crate::{Format, Header, ImageFile, IoError, Limits, Metadata};
 
 const FORMAT: Format = Format::Tiff;
@@ -35,7 +35,7 @@ fn check_capacity(path: &Path, decoder: &mut Decoder<Source<'_>>, header: &Heade
     let whole = decoder.inner().seek(SeekFrom::End(0)).map_err(|error| IoError::open(path, error))?;
     let length = lengths.into_iter().map(|length| length.min(whole)).fold(0, u64::saturating_add);
     // Some programs count the bytes wrongly.
-    capacity::check(path, length.max(whole), header, most)
+    header.check_capacity(path, length.max(whole), most)
 }
 
 /// Returns the most pixels, of one bit each, that a byte of a strip can hold; `None` where a compression has no such limit.
