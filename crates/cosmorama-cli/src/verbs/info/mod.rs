@@ -77,7 +77,7 @@ fn single(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value> {
     let reads_all = check || frames.is_empty();
     let likely = likely(inputs, &path, &header, reads_all);
     let mut report = json!({ "input": pattern });
-    if !check && !likely.is_read {
+    if !check && frames.is_empty() && !likely.is_read {
         report["read"] = json!("its header alone; --check decodes it");
     }
     let damaged = if check { damages(inputs, &files, &frames) } else { likely.damage.into_iter().collect() };
