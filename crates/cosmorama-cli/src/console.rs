@@ -1,6 +1,7 @@
 //! Output of messages and reports. Files that stand for streams (standard input and output, pipes) get readable names
 //! in it.
 
+use std::borrow::Cow;
 use std::collections::HashSet;
 use std::fmt::Display;
 use std::io::{ErrorKind, Write, stderr, stdout};
@@ -60,7 +61,7 @@ impl Console {
     /// Prints a requested text on standard output.
     pub(crate) fn print(&self, text: &str) -> Result<()> {
         let mut out = stdout().lock();
-        match out.write_all(self.told(text).as_bytes()).and_then(|()| out.flush()) {
+        match out.write_all(escaped(&self.told(text)).as_bytes()).and_then(|()| out.flush()) {
             // The reader of our output has closed it, and has seen enough.
             Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
             result => result.context("cannot write to standard output"),
@@ -71,7 +72,18 @@ impl Console {
 /// Prints a line on standard error. If nobody reads it any more, since a pipe is closed or a disk is full, the work
 /// goes on.
 pub(crate) fn say(line: impl Display) {
-    let _ = writeln!(stderr(), "{line}");
+    let _ = writeln!(stderr(), "{}", escaped(&line.to_string()));
+}
+
+/// Returns a text whose control characters, as names of files may hold them, are escaped as in JSON: a terminal obeys them. Ends of
+/// lines and tabs stay.
+fn escaped(text: &str) -> Cow<'_, str> {
+    let is_harmful = |c: char| c.is_control() && !matches!(c, '\n' | '\t');
+    if !text.contains(is_harmful) {
+        return text.into();
+    }
+    let escape = |c: char| if is_harmful(c) { format!("\\u{:04x}", u32::from(c)) } else { c.to_string() };
+    text.chars().map(escape).collect::<String>().into()
 }
 
 /// Returns a message in which settings are options of the command line.
@@ -80,4 +92,15 @@ pub(crate) fn in_options(message: &Message) -> String {
         Setting::Overwrite => "-y (--overwrite)".to_owned(),
         other => format!("--{}", other.name()),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_name_commands_a_terminal() {
+        assert_eq!(escaped("a\u{1b}[2J\r\u{7}\u{9b}b\u{7f}\n\tc"), "a\\u001b[2J\\u000d\\u0007\\u009bb\\u007f\n\tc");
+        assert!(matches!(escaped("plain, ä"), Cow::Borrowed(_)));
+    }
 }

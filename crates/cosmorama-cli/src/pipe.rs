@@ -4,6 +4,8 @@ use std::fs::File;
 use std::io::{ErrorKind, IsTerminal, Read, Write, copy, stdin, stdout};
 use std::path::Path;
 use std::sync::Arc;
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::time::Duration;
 
 use anyhow::{Context, Result, anyhow};
 use cosmorama_convert::{Files, InMemory};
@@ -11,7 +13,7 @@ use cosmorama_io::Format;
 use cosmorama_io::pending::Scratch;
 
 use crate::args::ConvertArgs;
-use crate::console::Console;
+use crate::console::{Console, say};
 use crate::failure::usage;
 
 /// Name of a standard stream on the command line.
@@ -44,7 +46,7 @@ impl KeptStreams {
             return Ok(STDIN.to_owned());
         }
         if is_pipe(Path::new(name)) {
-            let mut pipe = File::open(name).with_context(|| format!("cannot open {name}"))?;
+            let mut pipe = told_if_late(name, || File::open(name)).with_context(|| format!("cannot open {name}"))?;
             self.keep(&mut pipe, name)?;
         }
         Ok(name.to_owned())
@@ -61,6 +63,24 @@ impl KeptStreams {
         self.files.insert(name, bytes);
         Ok(())
     }
+}
+
+/// Time for which nothing is said about a pipe into which nobody writes.
+const PATIENCE: Duration = Duration::from_secs(5);
+
+/// Opens a pipe, which takes until somebody opens it for writing. If that takes long, it is said.
+fn told_if_late<T>(name: &str, open: impl FnOnce() -> T) -> T {
+    let (opened, wait) = channel::<()>();
+    std::thread::scope(|scope| {
+        scope.spawn(move || {
+            if wait.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
+                say(format_args!("waiting for {name}: a pipe into which nothing writes yet"));
+            }
+        });
+        let pipe = open();
+        drop(opened);
+        pipe
+    })
 }
 
 /// Returns whether a file is a pipe, as the shell's `<(command)` is: its bytes come once.

@@ -42,7 +42,7 @@ mod sequence;
 pub use calibration::{Calibration, CalibrationError, Distortion};
 #[cfg(feature = "diagrams")]
 pub use codec::svg;
-pub use codec::{Compression, ReadSeek, WriteOptions};
+pub use codec::{Compression, ReadSeek, WriteOptions, is_contained};
 pub use error::IoError;
 pub use face_set::{FaceFile, FaceImages, FacePattern, FacePlacement, FaceSet, LetterCase, Naming};
 pub use file::{

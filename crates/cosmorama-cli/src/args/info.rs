@@ -19,7 +19,9 @@ pub(crate) struct InfoArgs {
     /// or a Hugin project (.pto) is read, too.
     #[arg(value_hint = ValueHint::FilePath)]
     pub(crate) input: String,
-    /// Decode every frame of a pattern, to find damaged ones; without it, headers only where they tell enough
+    /// Decode every frame of a pattern and every picture of a world, to find damaged ones
+    ///
+    /// Without it, a single picture is decoded, if that takes up to 1 GiB. Of others headers alone may be read, which the report says.
     #[arg(long)]
     pub(crate) check: bool,
     /// Print the same as JSON

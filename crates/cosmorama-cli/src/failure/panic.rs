@@ -2,10 +2,15 @@ use std::panic::PanicHookInfo;
 
 use crate::console::say;
 
-/// Reports panics, which are faults of ours, on one line from now on. With RUST_BACKTRACE set, Rust's own report stays.
+/// Reports panics, which are faults of ours, on one line from now on, except those of decoders, which become errors about their files.
+/// With RUST_BACKTRACE set, Rust's own report stays.
 pub(crate) fn report_panics() {
     if std::env::var_os("RUST_BACKTRACE").is_none_or(|value| value == "0") {
-        std::panic::set_hook(Box::new(|info| say(line(info))));
+        std::panic::set_hook(Box::new(|info| {
+            if !cosmorama_io::is_contained() {
+                say(line(info));
+            }
+        }));
     }
 }
 

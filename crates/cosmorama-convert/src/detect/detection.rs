@@ -258,13 +258,17 @@ pub struct Likely {
     pub arrangement: Option<Continuity>,
     /// Damage, if its pixels cannot be read.
     pub damage: Option<String>,
+    /// Whether its pixels were read, or tried to be.
+    pub is_read: bool,
 }
 
 /// Examines an image. With `reads_all`, its pixels are read even where its header tells what it is: to find damage, and
 /// how faces lie.
 pub fn likely(files: &dyn Files, path: &Path, header: &Header, reads_all: bool) -> Likely {
     let Examined { guess, damage, borders } = Examined::of(files, path, header, &DecodedPicture::default());
-    let is_unread = reads_all && !guess.has_looked() && is_small(header);
+    // A part of a larger picture is not looked at, whatever the guess says.
+    let has_looked = guess.has_looked() && header.window.is_none() && is_small(header);
+    let is_unread = reads_all && !has_looked && is_small(header);
     let damage = damage.or_else(|| if is_unread { damage_of(files, path) } else { None });
     let circle = match guess {
         Guess::Blank(Evidence::Disc(found)) => Some(found),
@@ -273,5 +277,11 @@ pub fn likely(files: &dyn Files, path: &Path, header: &Header, reads_all: bool) 
     let cubes = if reads_all { guess.cubes() } else { Vec::new() };
     let picture = if cubes.is_empty() { None } else { light_of(files, path) };
     let judged = picture.and_then(|picture| seams::judged(&cubes, header.metadata.envmap, &picture));
-    Likely { projection: guess.describe(header), circle, arrangement: borders.or(judged), damage }
+    Likely {
+        projection: guess.describe(header),
+        circle,
+        arrangement: borders.or(judged),
+        damage,
+        is_read: has_looked || is_unread,
+    }
 }

@@ -6,8 +6,8 @@ use cosmorama::camera::{CameraModel, Mirror, OmnimaxCamera, PixelRect};
 use cosmorama::circle;
 use cosmorama::circle::{Circle, Found};
 use cosmorama::layout::{Arrangement, CubeLayout, LayoutKind};
-use cosmorama::raster::{EncodedImage, Image, Rgba, Samples, Transfer, Uniform};
-use cosmorama_io::{Header, ImageFile, IoError, Limits};
+use cosmorama::raster::{EncodedImage, FramePool, Image, Rgba, Samples, Transfer, Uniform};
+use cosmorama_io::{Choice, Header, ImageFile, IoError, Limits, read_chosen};
 use rayon::prelude::*;
 
 use crate::detect::oval::is_oval;
@@ -52,9 +52,13 @@ fn decoded(files: &dyn Files, path: &Path) -> Result<ImageFile, IoError> {
     read(files, path, &Limits::memory(limit))
 }
 
-/// Returns the damage of a file whose pixels cannot be read; `None` also for one that is too large for memory.
+/// Returns the damage of a file whose pixels cannot be read; `None` also for one that is too large for memory. Channels that
+/// form no picture are read, too.
 pub fn damage_of(files: &dyn Files, path: &Path) -> Option<String> {
-    match read(files, path, &Limits::memory(MemoryBudget::new(None).bytes)) {
+    let choice = Choice { without_picture: true, ..files.choice() };
+    let limits = Limits::memory(MemoryBudget::new(None).bytes);
+    let memory = (&limits, &FramePool::default());
+    match files.open(path).and_then(|source| read_chosen(source, path, memory, &choice)) {
         Ok(_) | Err(IoError::TooLarge { .. }) => None,
         Err(error) => Some(error.to_string()),
     }

@@ -178,8 +178,13 @@ impl Access<'_> {
 
     /// Reads all bytes of a file.
     pub(crate) fn read_bytes(self, path: &Path) -> io::Result<Vec<u8>> {
+        self.read_most(path, u64::MAX)
+    }
+
+    /// Reads so many bytes of a file, or all if it has fewer.
+    pub(crate) fn read_most(self, path: &Path, most: u64) -> io::Result<Vec<u8>> {
         let mut bytes = Vec::new();
-        self.open(path)?.read_to_end(&mut bytes)?;
+        self.open(path)?.take(most).read_to_end(&mut bytes)?;
         Ok(bytes)
     }
 

@@ -80,11 +80,16 @@ fn text(source: impl Read, path: &Path) -> Result<String, CalibrationError> {
     String::from_utf8(bytes).map_err(|_| wrong("not a text; expected OpenCV's YAML, JSON or XML, or OCamCalib's text"))
 }
 
-/// Parses a list of finite numbers.
-fn numbers<'a>(what: &str, words: impl IntoIterator<Item = &'a str>) -> Result<Vec<f64>, String> {
-    let number = |word: &str| match word.parse::<f64>() {
-        Ok(number) if number.is_finite() => Ok(number),
-        _ => Err(format!("{what} holds '{word}'; expected a finite number")),
+/// Greatest number of a calibration. Greater ones make directions of a picture's pixels that are none.
+const GREATEST: f64 = 1e15;
+
+/// Parses a list of finite numbers, each with its line.
+fn numbers<'a>(what: &str, words: impl IntoIterator<Item = (&'a str, usize)>) -> Result<Vec<f64>, String> {
+    let number = |(word, line): (&str, usize)| match word.parse::<f64>() {
+        Ok(number) if number.abs() <= GREATEST => Ok(number),
+        _ => Err(format!(
+            "line {line}: {what} holds '{word}'; expected a finite number, from -{GREATEST:e} to {GREATEST:e}"
+        )),
     };
     words.into_iter().map(number).collect()
 }

@@ -11,10 +11,11 @@ pub(super) fn is_ocam(text: &str) -> bool {
 /// Parses the lines of numbers, in this order: the polynomial and its inverse, each after its count; the centre (row
 /// and column from 0); c, d and e of the affine matrix; the image's height and width.
 pub(super) fn parse(text: &str) -> Result<Calibration, String> {
-    let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
+    let lines = text.lines().map(str::trim).zip(1..);
+    let mut lines = lines.filter(|(line, _)| !line.is_empty() && !line.starts_with('#'));
     let mut line = |what: &str| {
-        let line = lines.next().ok_or_else(|| format!("the file ends before {what}"))?;
-        numbers(what, line.split_whitespace())
+        let (line, number) = lines.next().ok_or_else(|| format!("the file ends before {what}"))?;
+        numbers(what, line.split_whitespace().map(|word| (word, number)))
     };
     let polynomial = counted("the polynomial", &line("the polynomial")?)?;
     if polynomial.len() > MOST {

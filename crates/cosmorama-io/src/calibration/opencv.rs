@@ -1,5 +1,5 @@
-use super::words::Words;
-use super::{Calibration, Distortion, brief, numbers, side};
+use super::words::{Word, Words};
+use super::{Calibration, Distortion, brief, side};
 
 /// Names of the camera matrix in various files.
 const MATRIX: [&str; 7] =
@@ -29,7 +29,8 @@ pub(super) fn interpret(words: &Words) -> Result<Calibration, String> {
         return Err(format!("the calibration of two cameras ({name}); give each camera a file of its own"));
     }
     let (name, matrix) = words.find(&MATRIX).ok_or("no camera_matrix; expected OpenCV's YAML, JSON or XML")?;
-    let matrix = self::matrix(name, &numbers(name, matrix)?)?;
+    let line = matrix.first().map_or(0, |word| word.line);
+    let matrix = self::matrix(name, &numbers(name, matrix)?).map_err(|reason| format!("line {line}: {reason}"))?;
     let (name, coefficients) = words.find(&COEFFICIENTS).ok_or("no distortion_coefficients")?;
     let mut coefficients = numbers(name, coefficients)?;
     if !LENGTHS.contains(&coefficients.len()) {
@@ -43,12 +44,19 @@ pub(super) fn interpret(words: &Words) -> Result<Calibration, String> {
     Ok(Calibration { distortion: Distortion::OpenCv { coefficients, is_fisheye }, matrix, size: size(words)? })
 }
 
+fn numbers(what: &str, words: &[Word]) -> Result<Vec<f64>, String> {
+    super::numbers(what, words.iter().map(|word| (word.text.as_str(), word.line)))
+}
+
+/// Least focal length in pixels.
+const LEAST: f64 = 1e-6;
+
 /// Returns the first two rows of the matrix; the last must be 0, 0, 1.
 fn matrix(name: &str, numbers: &[f64]) -> Result<[[f64; 3]; 2], String> {
     let [a, b, c, d, e, f, 0.0, 0.0, 1.0] = numbers[..] else {
         return Err(format!("{name} is {}; expected fx, skew, cx, 0, fy, cy, 0, 0, 1", brief(numbers)));
     };
-    if d != 0.0 || a <= 0.0 || e <= 0.0 {
+    if d != 0.0 || a < LEAST || e < LEAST {
         return Err(format!("{name} begins {a}, {b}, {c}, {d}, {e}, {f}; expected fx > 0, skew, cx, 0, fy > 0, cy"));
     }
     Ok([[a, b, c], [d, e, f]])
@@ -56,7 +64,7 @@ fn matrix(name: &str, numbers: &[f64]) -> Result<[[f64; 3]; 2], String> {
 
 /// Returns whether the file names the fisheye model; `None` if it names no model, as OpenCV's own files do.
 fn is_fisheye(words: &Words) -> Result<Option<bool>, String> {
-    let word = |name: &str| words.find(&[name]).and_then(|(_, words)| words.first().copied());
+    let word = |name: &str| words.find(&[name])?.1.first().map(|word| word.text.as_str());
     if let Some(model) = word("distortionmodel") {
         return match model.to_lowercase().as_str() {
             "equidistant" | "fisheye" => Ok(Some(true)),

@@ -1,26 +1,34 @@
 /// The content of a file of names and values, nested or not: the words under each path of names.
 #[derive(Debug, Default, PartialEq)]
-pub(super) struct Words(Vec<(String, Vec<String>)>);
+pub(super) struct Words(Vec<(String, Vec<Word>)>);
+
+/// A word, and its line in the file, from 1.
+#[derive(Debug, PartialEq)]
+pub(super) struct Word {
+    pub(super) text: String,
+    pub(super) line: usize,
+}
 
 impl Words {
-    /// Adds a word under a path of [`name`]s.
-    pub(super) fn add(&mut self, path: &[String], word: &str) {
+    /// Adds a word of a line under a path of [`name`]s.
+    pub(super) fn add(&mut self, path: &[String], word: &str, line: usize) {
         let path = path.join(".");
+        let word = Word { text: word.to_owned(), line };
         match self.0.last_mut().filter(|(last, _)| *last == path) {
-            Some((_, words)) => words.push(word.to_owned()),
-            None => self.0.push((path, vec![word.to_owned()])),
+            Some((_, words)) => words.push(word),
+            None => self.0.push((path, vec![word])),
         }
     }
 
     /// Finds the words under the first of some names that occurs, or under its `data`, at any depth. Names are
     /// normalised as by [`name`].
-    pub(super) fn find(&self, names: &[&str]) -> Option<(&str, Vec<&str>)> {
+    pub(super) fn find(&self, names: &[&str]) -> Option<(&str, &[Word])> {
         let is = |path: &str, name: &str| {
             let path = path.strip_suffix(".data").unwrap_or(path);
             path == name || path.strip_suffix(name).is_some_and(|outer| outer.ends_with('.'))
         };
         let found = names.iter().find_map(|name| self.0.iter().find(|(path, _)| is(path, name)));
-        found.map(|(path, words)| (path.as_str(), words.iter().map(String::as_str).collect()))
+        found.map(|(path, words)| (path.as_str(), words.as_slice()))
     }
 }
 
@@ -47,10 +55,11 @@ mod tests {
         let mut words = Words::default();
         let path = |names: &[&str]| names.iter().map(|text| name(text).expect("short")).collect::<Vec<_>>();
         for word in ["1", "2"] {
-            words.add(&path(&["opencv_storage", "Camera_Matrix", "data"]), word);
+            words.add(&path(&["opencv_storage", "Camera_Matrix", "data"]), word, 3);
         }
-        words.add(&path(&["mask"]), "7");
-        assert_eq!(words.find(&["k", "cameramatrix"]).map(|(_, words)| words), Some(vec!["1", "2"]));
+        words.add(&path(&["mask"]), "7", 4);
+        let word = |text: &str| Word { text: text.to_owned(), line: 3 };
+        assert_eq!(words.find(&["k", "cameramatrix"]).map(|(_, words)| words), Some(&[word("1"), word("2")][..]));
         assert_eq!(words.find(&["matrix"]), None);
         assert!(name(&"k".repeat(1000)).is_err());
     }

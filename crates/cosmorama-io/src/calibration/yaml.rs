@@ -25,7 +25,7 @@ pub(super) fn words(text: &str) -> Result<Words, String> {
             .map_err(|error| format!("no calibration by OpenCV (YAML, JSON or XML) or OCamCalib; as YAML: {error}"))?;
         match event {
             Event::StreamEnd => return Ok(reader.words),
-            event => reader.read(event).map_err(|reason| format!("line {}: {reason}", mark.line()))?,
+            event => reader.read(event, mark.line()).map_err(|reason| format!("line {}: {reason}", mark.line()))?,
         }
     }
 }
@@ -47,10 +47,10 @@ struct Reader {
 }
 
 impl Reader {
-    fn read(&mut self, event: Event) -> Result<(), String> {
+    fn read(&mut self, event: Event, line: usize) -> Result<(), String> {
         match event {
             Event::Alias(_) => return Err("an alias (*NAME); write the values themselves".to_owned()),
-            Event::Scalar(text, ..) => self.scalar(text)?,
+            Event::Scalar(text, ..) => self.scalar(text, line)?,
             Event::SequenceStart(..) | Event::MappingStart(..) if self.name_is_next() => {
                 return Err("a name that is a list or a mapping; expected a word".to_owned());
             }
@@ -72,7 +72,7 @@ impl Reader {
         matches!(self.open.last(), Some(Open::Mapping { name_is_next: true }))
     }
 
-    fn scalar(&mut self, text: String) -> Result<(), String> {
+    fn scalar(&mut self, text: String, line: usize) -> Result<(), String> {
         if let Some(Open::Mapping { name_is_next }) = self.open.last_mut()
             && *name_is_next
         {
@@ -80,7 +80,7 @@ impl Reader {
             self.path.push(name(&text)?);
             return Ok(());
         }
-        self.words.add(&self.path, &text);
+        self.words.add(&self.path, &text, line);
         self.value_is_complete();
         Ok(())
     }
@@ -100,9 +100,13 @@ mod tests {
     #[test]
     fn nested_lists_are_laid_flat() {
         let found = words("{\"a\": {\"K\": [[1, 2], [3, 4]], \"n\": 5}, \"b\": 6}").expect("JSON");
-        assert_eq!(found.find(&["k"]), Some(("a.k", vec!["1", "2", "3", "4"])));
-        assert_eq!(found.find(&["n"]), Some(("a.n", vec!["5"])));
-        assert_eq!(found.find(&["b"]), Some(("b", vec!["6"])));
+        let of = |name: &str| {
+            let (path, words) = found.find(&[name]).expect("a name");
+            (path, words.iter().map(|word| word.text.as_str()).collect::<Vec<_>>())
+        };
+        assert_eq!(of("k"), ("a.k", vec!["1", "2", "3", "4"]));
+        assert_eq!(of("n"), ("a.n", vec!["5"]));
+        assert_eq!(of("b"), ("b", vec!["6"]));
     }
 
     #[test]

@@ -1,4 +1,7 @@
-use std::io::{BufRead, Seek, Write};
+use std::any::Any;
+use std::cell::Cell;
+use std::io::{BufRead, Seek, SeekFrom, Write};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use cosmorama::raster::{EncodedImage, FramePool, Samples};
@@ -104,10 +107,60 @@ pub(crate) fn is_beside_others() -> bool {
     rayon::current_thread_index().is_some()
 }
 
+thread_local! {
+    static IS_CONTAINED: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Returns whether a panic of this thread will be caught, and become an error about the file that is decoded. A panic hook then
+/// need not tell of it.
+pub fn is_contained() -> bool {
+    IS_CONTAINED.get()
+}
+
+/// Calls a decoder. The error is a panic, which may be the fault of another's program, in words.
+pub(crate) fn contained<T>(decode: impl FnOnce() -> T) -> Result<T, String> {
+    let outer = IS_CONTAINED.replace(true);
+    // After a panic nothing is used that the decoder has changed.
+    let result = catch_unwind(AssertUnwindSafe(decode));
+    IS_CONTAINED.set(outer);
+    result.map_err(|payload| format!("its decoder failed: {}", words_of(&*payload)))
+}
+
+/// Returns the words of a panic.
+fn words_of(payload: &(dyn Any + Send)) -> &str {
+    let owned = || payload.downcast_ref::<String>().map(String::as_str);
+    payload.downcast_ref::<&str>().copied().or_else(owned).unwrap_or("a panic")
+}
+
+/// Returns the header of a file, unless it declares more pixels than the file can hold.
+pub(crate) fn held(path: &Path, source: Source<'_>, header: Header, pixels_per_byte: u64) -> Result<Header, IoError> {
+    let bytes = source.seek(SeekFrom::End(0)).map_err(|error| IoError::open(path, error))?;
+    header.check_capacity(path, bytes, pixels_per_byte)?;
+    Ok(header)
+}
+
 /// Builds the image file of a header and its samples.
 pub(crate) fn whole_image(path: &Path, header: Header, samples: Samples) -> Result<ImageFile, IoError> {
     let Header { format, width, height, channels, depth, metadata, window } = header;
     let image = EncodedImage::new(width, height, channels, depth, samples)
         .map_err(|error| IoError::damaged(path, format, error))?;
     Ok(ImageFile { format, image, metadata, window })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_panic_of_a_decoder_is_an_error() {
+        assert_eq!(contained(|| 7), Ok(7));
+        let number = 7;
+        let nested = contained(|| {
+            let inner = contained(|| -> u8 { panic!("no row {number}") });
+            assert!(is_contained());
+            inner
+        });
+        assert_eq!(nested, Ok(Err("its decoder failed: no row 7".to_owned())));
+        assert!(!is_contained());
+    }
 }

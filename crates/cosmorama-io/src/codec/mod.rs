@@ -20,7 +20,8 @@ use std::path::Path;
 
 pub(crate) use exr::{write_layers, write_planes};
 pub use interface::ReadSeek;
-pub(crate) use interface::{Codec, Source, is_beside_others};
+pub use interface::is_contained;
+pub(crate) use interface::{Codec, Source, contained, is_beside_others};
 pub(crate) use texture::write_flat;
 pub use write_options::{Compression, WriteOptions};
 

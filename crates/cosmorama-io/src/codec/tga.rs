@@ -5,10 +5,13 @@ use cosmorama::raster::{Channels, Depth, EncodedImage, FramePool, Samples};
 use image::codecs::tga::{TgaDecoder, TgaEncoder};
 use image::{ColorType, ExtendedColorType, ImageDecoder};
 
-use crate::codec::interface::{Codec, Sink, Source, whole_image};
+use crate::codec::interface::{Codec, Sink, Source, held, whole_image};
 use crate::{Format, Header, ImageFile, IoError, Limits, Metadata, WriteOptions};
 
 const FORMAT: Format = Format::Tga;
+
+/// Most pixels that a byte of a file can hold: runs of 128, each of at least two bytes.
+const PIXELS_PER_BYTE: u64 = 64;
 
 /// Codec of Truevision Targa.
 pub(crate) struct Tga;
@@ -20,7 +23,8 @@ impl Codec for Tga {
     }
 
     fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
-        header(path, &decoder(path, source)?)
+        let header = header(path, &decoder(path, &mut *source)?)?;
+        held(path, source, header, PIXELS_PER_BYTE)
     }
 
     fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {

@@ -4,9 +4,9 @@ use std::path::Path;
 
 use cosmorama::raster::FramePool;
 
-use crate::codec::{codec, recognise};
+use crate::codec::{codec, contained, recognise};
 use crate::header::{Header, ImageFile};
-use crate::{Choice, IoError, Limits, Plane};
+use crate::{Choice, Format, IoError, Limits, Plane};
 
 /// Number of bytes that are read from a file at once.
 const BUFFER: usize = 1 << 16;
@@ -43,7 +43,7 @@ pub fn probe(path: impl AsRef<Path>) -> Result<Header, IoError> {
 pub fn probe_from(mut source: impl BufRead + Seek, name: impl AsRef<Path>) -> Result<Header, IoError> {
     let name = name.as_ref();
     let format = recognise(name, &mut source)?;
-    Ok(codec(format).probe(name, &mut source)?.upright())
+    Ok(decoded(name, format, || codec(format).probe(name, &mut source))?.upright())
 }
 
 /// Reads a file. [`ImageFile::to_light`] decodes it to linear light.
@@ -104,7 +104,7 @@ pub fn read_in(
 ) -> Result<ImageFile, IoError> {
     let name = name.as_ref();
     let format = recognise(name, &mut source)?;
-    Ok(codec(format).decode(name, &mut source, limits, pool)?.upright(pool))
+    Ok(decoded(name, format, || codec(format).decode(name, &mut source, limits, pool))?.upright(pool))
 }
 
 /// Reads the header of a file like [`probe_from`], for the picture that a choice selects.
@@ -118,7 +118,7 @@ pub fn probe_chosen(
 ) -> Result<Header, IoError> {
     let name = name.as_ref();
     let format = recognise(name, &mut source)?;
-    Ok(codec(format).probe_chosen(name, &mut source, choice)?.upright())
+    Ok(decoded(name, format, || codec(format).probe_chosen(name, &mut source, choice))?.upright())
 }
 
 /// Reads the picture of a file that a choice selects, like [`read_in`].
@@ -133,7 +133,7 @@ pub fn read_chosen(
 ) -> Result<ImageFile, IoError> {
     let name = name.as_ref();
     let format = recognise(name, &mut source)?;
-    Ok(codec(format).decode_chosen(name, &mut source, memory, choice)?.upright(memory.1))
+    Ok(decoded(name, format, || codec(format).decode_chosen(name, &mut source, memory, choice))?.upright(memory.1))
 }
 
 /// Reads channels by their full names, each in its own sample type, from the part whose picture a choice selects. Their
@@ -149,7 +149,16 @@ pub fn read_layers(
 ) -> Result<Vec<Plane>, IoError> {
     let name = name.as_ref();
     let format = recognise(name, &mut source)?;
-    codec(format).decode_planes(name, &mut source, limits, (choice, channels))
+    decoded(name, format, || codec(format).decode_planes(name, &mut source, limits, (choice, channels)))
+}
+
+/// Calls the decoder of a file. If it panics, the file is damaged in a way that the decoder does not expect.
+pub(super) fn decoded<T>(
+    path: &Path,
+    format: Format,
+    decode: impl FnOnce() -> Result<T, IoError>,
+) -> Result<T, IoError> {
+    contained(decode).unwrap_or_else(|reason| Err(IoError::damaged(path, format, reason)))
 }
 
 /// Opens a file for reading.
@@ -163,4 +172,16 @@ pub fn open(path: &Path) -> Result<BufReader<File>, IoError> {
         return Err(fail(io::Error::from(io::ErrorKind::IsADirectory)));
     }
     Ok(BufReader::with_capacity(BUFFER, file))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_decoder_that_panics_names_the_file() {
+        let error = decoded(Path::new("odd.png"), Format::Png, || -> Result<(), IoError> { panic!("index 9") });
+        let message = error.unwrap_err().to_string();
+        assert!(message.contains("odd.png: damaged") && message.contains("its decoder failed: index 9"), "{message}");
+    }
 }

@@ -1,5 +1,6 @@
 //! Headers of files, and file formats.
 
+mod capacity;
 mod choice;
 mod format;
 mod plane;
@@ -10,6 +11,7 @@ pub use choice::Choice;
 pub use format::Format;
 pub use plane::{LayeredImage, Plane, PlaneSamples};
 
+pub(crate) use capacity::DEFLATE;
 pub(crate) use choice::matches;
 
 use crate::metadata::{Metadata, Window};

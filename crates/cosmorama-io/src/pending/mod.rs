@@ -2,12 +2,14 @@
 //!
 //! [`write`](crate::write()) writes to a temporary file beside the output, and renames it when it is complete.
 //! Meanwhile the file is listed in [`Unfinished`]. An interrupt handler calls [`Unfinished::remove_all`] before the
-//! program ends, so that no partial file stays behind. Files left by a killed program are named `.cosmorama-*.part`.
+//! program ends, so that no partial file stays behind. Files left by a killed program are named `.cosmorama-*.part`; the next
+//! run that writes into their folder removes them.
 //! Folders that are created for outputs ([`NewFolders`]) are listed, too, and removed if they stay empty. A [`PendingFolder`] appears
 //! with all of its files.
 
 mod folder;
 mod new_folders;
+mod sweep;
 
 use std::collections::BTreeSet;
 use std::fs::File;
@@ -36,6 +38,8 @@ struct Listing {
     paths: BTreeSet<PathBuf>,
     /// Folders for outputs, which are removed if they are empty.
     folders: BTreeSet<PathBuf>,
+    /// Folders in which files of killed programs have been sought.
+    swept: BTreeSet<PathBuf>,
 }
 
 impl Unfinished {
@@ -58,6 +62,13 @@ impl Unfinished {
     fn listing(&self) -> MutexGuard<'_, Listing> {
         // A set of paths is whole after every step, even if a thread panicked.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Removes what killed programs have left in a folder, once for each folder.
+    fn sweep(&self, folder: &Path) {
+        if self.listing().swept.insert(folder.to_owned()) {
+            sweep::sweep(folder);
+        }
     }
 
     /// Creates a file and puts it on the list, while `remove_all` cannot run.
@@ -128,8 +139,10 @@ impl Pending {
             Some(folder) if !folder.as_os_str().is_empty() => folder,
             _ => Path::new("."),
         };
+        unfinished.sweep(folder);
+        let prefix = sweep::prefix();
         let mut builder = Builder::new();
-        builder.prefix(PREFIX).suffix(SUFFIX);
+        builder.prefix(&prefix).suffix(SUFFIX);
         let make = || {
             // Not with the permissions of `tempfile`, whose files only their owner can read: the umask decides who can
             // read an output.
@@ -161,8 +174,8 @@ impl Pending {
     pub fn close(self) -> Result<Hidden, IoError> {
         // Dropped in reverse order.
         let Self { target, listed, path, mut file } = self;
-        let flushed = file.flush();
-        // Closed before it is renamed.
+        // On the disk before it is renamed: after a power cut there is no file of that name that is not whole.
+        let flushed = file.flush().and_then(|()| sync(file.get_ref()));
         drop(file);
         flushed.and_then(|()| keep_permissions(&target, &path)).map_err(|error| IoError::write(&target, error))?;
         Ok(Hidden { target, path, _listed: listed })
@@ -223,6 +236,14 @@ pub fn place(target: &Path) -> Result<PathBuf, IoError> {
         path = path.parent().unwrap_or(Path::new("")).join(link);
     }
     Err(IoError::write(target, "its links lead nowhere but to each other; choose another name"))
+}
+
+/// Waits until a file is on its disk. Some file systems cannot tell.
+fn sync(file: &File) -> io::Result<()> {
+    match file.sync_all() {
+        Err(error) if matches!(error.kind(), io::ErrorKind::Unsupported | io::ErrorKind::InvalidInput) => Ok(()),
+        result => result,
+    }
 }
 
 /// Copies the permissions of the file that is replaced, so that a private file stays private.

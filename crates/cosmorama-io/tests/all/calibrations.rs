@@ -57,6 +57,24 @@ fn what_ocamcalib_writes_is_read() {
     assert_eq!(calibration.size, Some((1024, 768)));
 }
 
+/// Numbers that no lens has, which would make directions that are none, with their lines.
+#[test]
+fn absurd_numbers_are_refused_with_their_lines() {
+    for (text, expected) in [
+        (YAML.replace("500.,", "1e308,"), "line 9: "),
+        (YAML.replace("0.252", "-1e308"), "line 15: "),
+        (YAML.replace("510.,", "1e-308,"), "line 9: "),
+        (JSON.replace("-0.047", "1e100"), "line 3: "),
+        (XML.replace("500. 0.", "500. 1e16"), "line 6: "),
+        (XML.replace("0.252", "1e308"), "line 9: "),
+        (OCAM.replace("-1.207311e-07", "1e300"), "line 3: "),
+        (OCAM.replace("383.092600", "-1e16"), "line 11: "),
+    ] {
+        let error = read(&text).unwrap_err();
+        assert!(error.contains("camera.txt") && error.contains(expected), "{expected}: {error}");
+    }
+}
+
 #[test]
 fn what_is_no_calibration_says_why() {
     for (text, expected) in [

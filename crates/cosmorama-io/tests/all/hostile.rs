@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::common::picture;
-use cosmorama::raster::{Channels, Depth};
+use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
 use cosmorama_io::{
     Calibration, EnvMap, Format, IoError, Limits, Metadata, PtoProject, WriteOptions, probe, read, read_pairs, write,
 };
@@ -162,6 +162,34 @@ fn giant(extension: &str, bytes: &[u8]) -> String {
     }
 }
 
+/// An OpenEXR file of a few bytes that declares a square of this side, in so many chunks.
+fn exr_of(side: u16, chunks: i32) -> Vec<u8> {
+    let mut exr = written("exr");
+    let last = (i32::from(side) - 1).to_le_bytes();
+    for name in [&b"dataWindow\0box2i\0"[..], &b"displayWindow\0box2i\0"[..]] {
+        let at = exr.windows(name.len()).position(|bytes| bytes == name).unwrap() + name.len() + 4;
+        exr[at + 8..at + 16].copy_from_slice(&[last, last].concat());
+    }
+    let name = b"chunkCount\0int\0";
+    let at = exr.windows(name.len()).position(|bytes| bytes == name).unwrap() + name.len() + 4;
+    exr[at..at + 4].copy_from_slice(&chunks.to_le_bytes());
+    exr
+}
+
+/// A little-endian TIFF: width, height, 8 bits, no compression, RGB, one strip of nothing.
+fn giant_tiff() -> Vec<u8> {
+    let mut tiff = b"II\x2a\0\x08\0\0\0\x09\0".to_vec();
+    let entries: [(u16, u32); 9] =
+        [(256, 65535), (257, 65535), (258, 8), (259, 1), (262, 2), (273, 8), (277, 3), (278, 65535), (279, 8)];
+    for (tag, value) in entries {
+        tiff.extend(tag.to_le_bytes());
+        tiff.extend([4, 0, 1, 0, 0, 0]);
+        tiff.extend(value.to_le_bytes());
+    }
+    tiff.extend([0; 4]);
+    tiff
+}
+
 #[test]
 fn giant_sizes_are_refused_before_memory_is_taken() {
     let mut png = written("png");
@@ -184,14 +212,7 @@ fn giant_sizes_are_refused_before_memory_is_taken() {
 
     giant("hdr", b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 65535 +X 65535\n");
 
-    let mut exr = written("exr");
-    for name in [&b"dataWindow\0box2i\0"[..], &b"displayWindow\0box2i\0"[..]] {
-        let at = exr.windows(name.len()).position(|bytes| bytes == name).unwrap() + name.len() + 4;
-        exr[at + 8..at + 16].copy_from_slice(&[0xfe, 0xff, 0, 0, 0xfe, 0xff, 0, 0]);
-    }
-    let name = b"chunkCount\0int\0";
-    let at = exr.windows(name.len()).position(|bytes| bytes == name).unwrap() + name.len() + 4;
-    exr[at..at + 4].copy_from_slice(&4096_i32.to_le_bytes());
+    let mut exr = exr_of(65535, 4096);
     giant("exr", &exr);
     // A small display window hides nothing: the data window counts.
     let name = b"displayWindow\0box2i\0";
@@ -199,17 +220,61 @@ fn giant_sizes_are_refused_before_memory_is_taken() {
     exr[at + 8..at + 16].copy_from_slice(&[9, 0, 0, 0, 9, 0, 0, 0]);
     giant("exr", &exr);
 
-    // Little-endian TIFF: width, height, 8 bits, no compression, RGB, one strip of nothing.
-    let mut tiff = b"II\x2a\0\x08\0\0\0\x09\0".to_vec();
-    let entries: [(u16, u32); 9] =
-        [(256, 65535), (257, 65535), (258, 8), (259, 1), (262, 2), (273, 8), (277, 3), (278, 65535), (279, 8)];
-    for (tag, value) in entries {
-        tiff.extend(tag.to_le_bytes());
-        tiff.extend([4, 0, 1, 0, 0, 0]);
-        tiff.extend(value.to_le_bytes());
+    giant("tif", &giant_tiff());
+}
+
+/// Files of each format whose headers declare more pixels than their bytes can hold: that costs no work for so many pixels.
+#[test]
+fn what_a_file_is_too_short_for_is_refused_by_its_header() {
+    let [mut png, mut jpeg, mut tga, mut dds] = ["png", "jpg", "tga", "dds"].map(written);
+    png[16..24].copy_from_slice(&[0, 0x0f, 0, 0, 0, 0, 0x0f, 0]);
+    let checksum = crc32(&png[12..29]);
+    png[29..33].copy_from_slice(&checksum.to_be_bytes());
+    let frame = jpeg.windows(2).position(|pair| pair == [0xff, 0xc0]).unwrap();
+    jpeg[frame + 5..frame + 9].copy_from_slice(&[0x3a, 0x98, 0x75, 0x30]);
+    tga[12..16].fill(0x7f);
+    let edge = 5000_u32.to_le_bytes();
+    dds[12..16].copy_from_slice(&edge);
+    dds[16..20].copy_from_slice(&edge);
+    let hdr = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 65535 +X 65535\n".to_vec();
+    let files = [
+        ("png", png, "983040x3840"),
+        ("jpg", jpeg, "30000x15000"),
+        ("tga", tga, "32639x32639"),
+        ("hdr", hdr, "65535x65535"),
+        ("exr", exr_of(65535, 4096), "65535x65535"),
+        ("tif", giant_tiff(), "65535x65535"),
+        ("dds", dds, "5000x30000"),
+    ];
+    let folder = tempfile::tempdir().unwrap();
+    for (extension, bytes, size) in files {
+        let path = folder.path().join(format!("lie.{extension}"));
+        std::fs::write(&path, &bytes).unwrap();
+        let error = probe(&path).unwrap_err();
+        let message = error.to_string();
+        assert!(matches!(error, IoError::Damaged { .. }), "{message}");
+        assert!(message.contains(&format!("its {} bytes cannot hold {size} pixels", bytes.len())), "{message}");
     }
-    tiff.extend([0; 4]);
-    giant("tif", &tiff);
+}
+
+/// The most that compression does of one colour is held.
+#[test]
+fn pictures_of_one_colour_are_not_called_too_short() {
+    let folder = tempfile::tempdir().unwrap();
+    for extension in ["png", "jpg", "tif", "tga", "hdr", "exr"] {
+        let path = folder.path().join(format!("flat.{extension}"));
+        let format = Format::from_extension(&path).unwrap();
+        let depth = format.nearest_depth(Depth::Eight);
+        let count = 2000 * 1000 * 3;
+        let samples = match depth {
+            Depth::Eight => Samples::U8(vec![0; count]),
+            Depth::Half => Samples::Half(vec![half::f16::ZERO; count]),
+            _ => Samples::Float(vec![0.0; count]),
+        };
+        let image = EncodedImage::new(2000, 1000, Channels::Rgb, depth, samples).unwrap();
+        write(&path, &image, &WriteOptions::default()).unwrap();
+        assert_eq!(probe(&path).unwrap().width, 2000, "{extension}");
+    }
 }
 
 #[test]

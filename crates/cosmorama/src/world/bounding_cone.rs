@@ -52,6 +52,12 @@ impl SeenCone {
         (half < Angle::HALF_TURN).then_some(Self { middle, half })
     }
 
+    /// Returns whether two cones have a direction in common, or nearly so: they hold directions up to rounding.
+    pub(super) fn meets(&self, other: &Self) -> bool {
+        const ROUNDING: f64 = 1e-6;
+        self.reaches(other.middle, other.half.radians() + ROUNDING)
+    }
+
     /// Returns whether the cone comes within `radius` radians of a direction.
     pub(crate) fn reaches(&self, direction: Direction, radius: f64) -> bool {
         self.middle.angle_to(direction).radians() <= self.half.radians() + radius
@@ -92,6 +98,23 @@ mod tests {
             CameraModel::Fisheye(FisheyeCamera::default()),
         ] {
             assert!(cone_holds_the_picture(frame.clone(), (97, 61)), "{frame:?} has no cone");
+        }
+    }
+
+    #[test]
+    fn cones_meet_where_they_have_a_direction_in_common() {
+        let cone = |degrees: f64| {
+            let orientation = Orientation::from_yaw_pitch_roll(Angle::from_degrees(degrees), Angle::ZERO, Angle::ZERO);
+            let frame = CameraModel::Fisheye(FisheyeCamera {
+                field_of_view: Angle::from_degrees(60.0),
+                ..FisheyeCamera::default()
+            });
+            let view = Placement { orientation, ..Placement::new(frame) }.view(32, 32).expect("a size");
+            SeenCone::of(&view).expect("a cone")
+        };
+        for (degrees, meets) in [(0.0, true), (55.0, true), (100.0, false), (180.0, false), (-55.0, true)] {
+            assert_eq!(cone(0.0).meets(&cone(degrees)), meets, "{degrees}");
+            assert_eq!(cone(degrees).meets(&cone(0.0)), meets, "{degrees}");
         }
     }
 

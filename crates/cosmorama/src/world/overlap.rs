@@ -22,10 +22,12 @@ const INSIDE_A_STOP: f64 = 1e-6;
 /// records which views overlap each view, and which of its texels are not shared.
 pub(crate) fn share(sources: &mut [Source]) {
     let rims: Vec<Vec<Direction>> = sources.iter().map(|source| rim(&source.view)).collect();
+    let meets = |a: usize, b: usize| sources[a].meets(&sources[b]);
     let sees = |view: usize, rim: usize| rims[rim].iter().any(|direction| sources[view].view.sees(*direction));
     let others: Vec<Vec<usize>> = (0..sources.len())
         .map(|index| {
-            let overlaps = |&other: &usize| other != index && (sees(index, other) || sees(other, index));
+            let overlaps =
+                |&other: &usize| other != index && meets(index, other) && (sees(index, other) || sees(other, index));
             (0..sources.len()).filter(overlaps).collect()
         })
         .collect();

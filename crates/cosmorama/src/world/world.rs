@@ -142,6 +142,11 @@ impl Source {
         self.cone.is_none_or(|cone| cone.reaches(direction, radius))
     }
 
+    /// Returns whether two views may show anything in common: most of many views do not, and need no search.
+    pub(super) fn meets(&self, other: &Self) -> bool {
+        self.cone.zip(other.cone).is_none_or(|(cone, other)| cone.meets(&other))
+    }
+
     /// Returns the distance of a direction from the image, in texels: zero inside, `None` where the projection has no
     /// place for it.
     pub(crate) fn texels_beyond(&self, direction: Direction) -> Option<f64> {

@@ -32,7 +32,7 @@ pub(super) fn run(args: &InfoArgs, console: &mut Console) -> Result<ExitCode> {
         json!({ "input": input, "projection": "any (a formula)", "shows": builtin.about() })
     } else if FacePattern::parse(input).is_some() {
         faces_report(files, input, args.check)?
-    } else if let Some(world) = world::report(files, input, console)? {
+    } else if let Some(world) = world::report(files, (input, args.check), console)? {
         world
     } else {
         single(files, input, args.check)?
@@ -50,8 +50,13 @@ pub(super) fn run(args: &InfoArgs, console: &mut Console) -> Result<ExitCode> {
 const DAMAGED_PROFILE: &str = "icc_profile_damaged";
 
 fn is_damaged(report: &Value) -> bool {
-    let Value::Object(fields) = report else { return false };
-    fields.iter().any(|(key, value)| key == "damaged" || key == DAMAGED_PROFILE || is_damaged(value))
+    match report {
+        Value::Object(fields) => {
+            fields.iter().any(|(key, value)| key == "damaged" || key == DAMAGED_PROFILE || is_damaged(value))
+        }
+        Value::Array(items) => items.iter().any(is_damaged),
+        _ => false,
+    }
 }
 
 fn single(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value> {
@@ -62,13 +67,19 @@ fn single(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value> {
     let header = probe_any(inputs, &path)?;
     if header.metadata.layers.no_picture.is_some() {
         let mut report = json!({ "input": pattern });
-        add_frames(&mut report, &frames, false);
+        if check || frames.is_empty() {
+            add_damage(&mut report, damages(inputs, &files, &frames));
+        }
+        add_frames(&mut report, &frames, check);
         merge(&mut report, header_report(&header));
         return Ok(report);
     }
     let reads_all = check || frames.is_empty();
     let likely = likely(inputs, &path, &header, reads_all);
     let mut report = json!({ "input": pattern });
+    if !check && frames.is_empty() && !likely.is_read {
+        report["read"] = json!("its header alone; --check decodes it");
+    }
     let damaged = if check { damages(inputs, &files, &frames) } else { likely.damage.into_iter().collect() };
     add_damage(&mut report, damaged);
     if let Some(ProfileFault::Damaged(reason)) = &header.metadata.profile_fault {
@@ -128,7 +139,7 @@ fn faces_report(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value>
 }
 
 /// Decodes a file, or each of its frames, and describes what is wrong with those that are damaged.
-fn damages(inputs: &dyn Files, files: &ViewFiles, frames: &[u64]) -> Vec<String> {
+pub(super) fn damages(inputs: &dyn Files, files: &ViewFiles, frames: &[u64]) -> Vec<String> {
     let paths: Vec<PathBuf> = match frames {
         [] => vec![files.path(None)],
         frames => frames.iter().map(|frame| files.path(Some(*frame))).collect(),
@@ -136,7 +147,7 @@ fn damages(inputs: &dyn Files, files: &ViewFiles, frames: &[u64]) -> Vec<String>
     paths.iter().filter_map(|path| damage_of(inputs, path)).collect()
 }
 
-fn add_damage(report: &mut Value, damaged: Vec<String>) {
+pub(super) fn add_damage(report: &mut Value, damaged: Vec<String>) {
     match &damaged[..] {
         [] => {}
         [one] => report["damaged"] = json!(one),

@@ -3,21 +3,23 @@
 use anyhow::Result;
 use cosmorama::camera::{PixelPoint, View};
 use cosmorama::sphere::{Direction, Extent};
-use cosmorama_convert::{Files, InputView, Listed, MemoryBudget, listed};
+use cosmorama_convert::{Files, InputView, Listed, MemoryBudget, existing_frames, listed};
 use serde_json::{Value, json};
 
+use super::{add_damage, damages};
 use crate::console::Console;
 
 /// Number of directions, each for an equal part of the sphere: enough for a tenth of a percent.
 const DIRECTIONS: usize = 100_000;
 
 /// Returns the report on a world file or a Hugin project; `None` where an input is neither.
-pub(super) fn report(files: &dyn Files, name: &str, console: &Console) -> Result<Option<Value>> {
+pub(super) fn report(files: &dyn Files, (name, check): (&str, bool), console: &Console) -> Result<Option<Value>> {
     let mut warnings = Vec::new();
     let Some(list) = listed(name, files, MemoryBudget::new(None), &mut warnings)? else { return Ok(None) };
     warnings.iter().for_each(|warning| console.warn(warning));
     let sphere: Vec<Direction> = Direction::spread(DIRECTIONS).collect();
-    let views: Vec<Value> = list.iter().flat_map(|listed| views(listed, &sphere)).collect();
+    let reading = check.then_some(files);
+    let views = list.iter().map(|listed| views(listed, &sphere, reading)).collect::<Result<Vec<_>>>()?.concat();
     let all: Vec<&InputView> = list.iter().flat_map(|listed| &listed.input.worlds[0]).collect();
     let is_covered = |direction| all.iter().any(|view| holds(view, direction));
     let holes = sphere.iter().filter(|direction| !is_covered(**direction)).map(|direction| Extent::of(*direction));
@@ -26,6 +28,7 @@ pub(super) fn report(files: &dyn Files, name: &str, console: &Console) -> Result
         "projection": match views.len() { 1 => "a world of one view".to_owned(), count => format!("a world of {count} views") },
         "covers": percent(share(&sphere, is_covered)),
     });
+    report["read"] = json!(if check { "every picture" } else { "headers alone; --check decodes every picture" });
     if let Some(extent) = holes.reduce(Extent::union) {
         report["lacks"] = json!(format!("directions within {extent}"));
     }
@@ -33,9 +36,15 @@ pub(super) fn report(files: &dyn Files, name: &str, console: &Console) -> Result
     Ok(Some(report))
 }
 
-fn views(listed: &Listed, sphere: &[Direction]) -> Vec<Value> {
-    let worlds = listed.input.worlds.iter().flatten();
-    worlds.map(|view| of_view(listed, view, sphere)).collect()
+fn views(listed: &Listed, sphere: &[Direction], reading: Option<&dyn Files>) -> Result<Vec<Value>> {
+    let view = |view: &InputView| {
+        let mut report = of_view(listed, view, sphere);
+        if let (Some(files), Some(_)) = (reading, &view.header) {
+            add_damage(&mut report, damages(files, &view.files, &existing_frames(&view.files)?));
+        }
+        Ok(report)
+    };
+    listed.input.worlds.iter().flatten().map(view).collect()
 }
 
 fn of_view(listed: &Listed, view: &InputView, sphere: &[Direction]) -> Value {

@@ -168,3 +168,35 @@ fn watches(process: u32, signal: u32) -> bool {
     let bits = status.lines().find_map(|line| line.strip_prefix("SigCgt:")).unwrap();
     u64::from_str_radix(bits.trim(), 16).unwrap() >> (signal - 1) & 1 == 1
 }
+
+/// A named pipe waits for whoever writes into it, and says so.
+#[cfg(unix)]
+#[test]
+fn a_pipe_without_a_writer_is_told_of() {
+    let bench = Bench::new();
+    bench.save("a.png", &picture(3, 64, 32));
+    assert!(std::process::Command::new("mkfifo").arg(bench.path("late")).status().unwrap().success());
+    let mut command = bench.command(&["info", "late"]);
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    std::thread::sleep(std::time::Duration::from_secs(6));
+    std::fs::write(bench.path("late"), bench.bytes("a.png")).unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert_says(&text(&output.stderr), &["waiting for late: a pipe into which nothing writes yet"]);
+    assert_says(&text(&output.stdout), &["width: 64"]);
+}
+
+/// Names with characters that command terminals.
+#[cfg(unix)]
+#[test]
+fn names_are_told_without_their_control_characters() {
+    let bench = Bench::new();
+    let name = "a\u{1b}[31m.png";
+    bench.save(name, &picture(3, 64, 32));
+    let said = [bench.succeed(&["info", name]), bench.fail(1, &["info", "gone\u{1b}.png"])];
+    assert_says(&said[0], &["input: a\\u001b[31m.png"]);
+    assert_says(&said[1], &["cannot open gone\\u001b.png"]);
+    assert!(!said.concat().contains('\u{1b}'));
+    let json: serde_json::Value = serde_json::from_str(&bench.succeed(&["info", name, "--json"])).unwrap();
+    assert_eq!(json["input"], name);
+}

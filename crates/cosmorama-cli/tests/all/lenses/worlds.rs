@@ -178,6 +178,14 @@ fn mistakes_are_told_with_their_line() {
 }
 
 #[test]
+fn a_world_file_of_millions_of_bytes_is_refused_before_it_is_parsed() {
+    let bench = Bench::new();
+    std::fs::write(bench.path("huge.toml"), "[[view]]\n".repeat(500_000)).unwrap();
+    let message = bench.fail(1, &["convert", "huge.toml", "out.png", "--to", "equirect"]);
+    assert_says(&message, &["huge.toml", "more than 4 MiB", "divide it"]);
+}
+
+#[test]
 fn info_lists_the_views_of_a_world() {
     let bench = Bench::new();
     bench.save("left.png", &picture(1, 60, 60));

@@ -2,7 +2,7 @@
 
 use cosmorama::sphere::CubeFace;
 
-use crate::bench::{Bench, assert_says, picture, text};
+use crate::bench::{Bench, assert_says, floats, picture, text};
 
 const TO: [&str; 5] = ["-y", "--to", "fulldome", "--size", "32"];
 
@@ -172,6 +172,39 @@ fn frames_whose_header_says_what_they_are_are_read_only_for_a_check() {
         assert_eq!((output.status.code(), told.matches("damaged: ").count()), (Some(1), 1), "{told}");
         assert_says(&told, &[&format!("damaged: {name}: damaged or truncated"), "read: every frame"]);
     }
+}
+
+/// Headers alone tell of a part of a larger picture, of channels that form none, and of a world; damage is sought all the same.
+#[test]
+fn damage_behind_a_whole_header_is_found() {
+    let bench = Bench::new();
+    let halve = |name: &str| {
+        let whole = bench.bytes(name);
+        std::fs::write(bench.path(name), &whole[..whole.len() - whole.len() / 8]).unwrap();
+    };
+    let is_damaged = |args: &[&str]| {
+        let output = bench.run(&[&["info"], args].concat());
+        assert_says(&text(&output.stdout), &["damaged: "]);
+        assert_eq!(output.status.code(), Some(1), "{args:?}");
+    };
+    bench.succeed(&["convert", "builtin:direction-map", "map.exr", "--to", "fulldome", "--size", "64"]);
+    bench.save("part.exr", &floats(64, 64, |i, j| [i as f32, j as f32, 0.5]));
+    let mut part = bench.bytes("part.exr");
+    let name = b"displayWindow\0box2i\0";
+    let right = part.windows(name.len()).position(|bytes| bytes == name).unwrap() + name.len() + 4 + 8;
+    part[right..right + 4].copy_from_slice(&99_i32.to_le_bytes());
+    std::fs::write(bench.path("part.exr"), part).unwrap();
+    bench.save("view.png", &picture(1, 64, 64));
+    std::fs::write(bench.path("a.toml"), "[[view]]\nimage = \"view.png\"\nspec = \"perspective:fov=90\"\n").unwrap();
+    for name in ["map.exr", "part.exr"] {
+        bench.succeed(&["info", name]);
+        halve(name);
+        is_damaged(&[name]);
+    }
+    bench.succeed(&["info", "a.toml", "--check"]);
+    halve("view.png");
+    assert_says(&bench.succeed(&["info", "a.toml"]), &["read: headers alone; --check decodes every picture"]);
+    is_damaged(&["a.toml", "--check"]);
 }
 
 #[test]

@@ -69,7 +69,12 @@ struct Entry {
 struct Text<'a> {
     name: &'a str,
     text: &'a str,
+    /// Places at which lines end.
+    ends: Vec<usize>,
 }
+
+/// Greatest length of a world file in bytes: of tens of thousands of views.
+const LONGEST: u64 = 4 << 20;
 
 /// Description of a world file's content.
 const SCHEMA: &str = "a [[view]] for each image, with image = \"FILE\", and where wanted spec = \"SPEC\", priority = WHOLE \
@@ -115,7 +120,7 @@ pub(crate) fn listed(
     warnings: &mut Vec<Diagnostic>,
 ) -> Result<Vec<Listed>> {
     let text = read(name, access)?;
-    let source = Text { name, text: &text };
+    let source = Text::new(name, &text);
     let file = source.parse()?;
     source.layers(&file)?;
     if let Some(layer) = file.layer.first() {
@@ -146,13 +151,16 @@ pub(crate) fn layers(name: &str, files: &dyn Files) -> Result<Vec<Backdrop>> {
     }
     let access = Access { files, memory: MemoryBudget::new(None), decoded: &DecodedPicture::default() };
     let text = read(name, access)?;
-    let source = Text { name, text: &text };
+    let source = Text::new(name, &text);
     source.layers(&source.parse()?)
 }
 
 fn read(name: &str, access: Access) -> Result<String> {
     let cannot_open = |error| failed_as(of_opening(&error), format!("cannot open the world file {name}: {error}"));
-    let bytes = access.read_bytes(Path::new(name)).map_err(cannot_open)?;
+    let bytes = access.read_most(Path::new(name), LONGEST + 1).map_err(cannot_open)?;
+    if bytes.len() as u64 > LONGEST {
+        bail!(Malformed: "{name}: a world file of more than 4 MiB, the most that is read; divide it into several, of fewer views each");
+    }
     String::from_utf8(bytes)
         .map_err(|_| failure!(Malformed: "{name}: not a text; expected a world file in TOML: {SCHEMA}"))
 }
@@ -284,7 +292,11 @@ impl Entry {
     }
 }
 
-impl Text<'_> {
+impl<'a> Text<'a> {
+    fn new(name: &'a str, text: &'a str) -> Self {
+        Self { name, text, ends: text.match_indices('\n').map(|(at, _)| at).collect() }
+    }
+
     /// Returns the layers of a file, the nearest first.
     fn layers(&self, file: &WorldFile) -> Result<Vec<Backdrop>> {
         if let (Some(view), Some(_)) = (file.view.first(), file.layer.first()) {
@@ -311,7 +323,7 @@ impl Text<'_> {
 
     /// Returns the file and the line.
     fn place(&self, span: Option<Range<usize>>) -> String {
-        let line = |span: Range<usize>| 1 + self.text.bytes().take(span.start).filter(|byte| *byte == b'\n').count();
+        let line = |span: Range<usize>| 1 + self.ends.partition_point(|end| *end < span.start);
         span.map_or_else(|| self.name.to_owned(), |span| format!("{}, line {}", self.name, line(span)))
     }
 }
@@ -320,8 +332,10 @@ impl Text<'_> {
 fn join(worlds: &mut Vec<Vec<InputView>>, mut more: Vec<Vec<InputView>>) {
     let count = worlds.len().max(more.len());
     for side in [&mut *worlds, &mut more] {
-        let first = side.first().cloned().unwrap_or_default();
-        side.resize(count, first);
+        if side.len() < count {
+            let first = side.first().cloned().unwrap_or_default();
+            side.resize(count, first);
+        }
     }
     worlds.iter_mut().zip(more).for_each(|(world, views)| world.extend(views));
 }

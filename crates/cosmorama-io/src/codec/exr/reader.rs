@@ -7,6 +7,7 @@ use exr::block::chunk::{Chunk, TileCoordinates};
 use exr::block::lines::LineRef;
 use exr::block::reader::{ChunksReader, Reader};
 use exr::block::{BlockIndex, UncompressedBlock};
+use exr::compression::Compression;
 use exr::error::Error;
 use exr::meta::attribute::{EnvironmentMap, SampleType};
 use exr::meta::header::Header as Part;
@@ -21,7 +22,8 @@ use super::offer::Offer;
 use super::selection::Selection;
 use super::window::Crop;
 use crate::codec::behind::{count_marks, next_bytes, skip_padding};
-use crate::codec::interface::{Source, is_beside_others, whole_image};
+use crate::codec::interface::{Source, contained, held, is_beside_others, whole_image};
+use crate::header::DEFLATE;
 use crate::{Attribute, Carried, Choice, EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata};
 
 const FORMAT: Format = Format::Exr;
@@ -40,9 +42,20 @@ const BATCH_BYTES: u128 = 1 << 26;
 /// Reads a file's header for the picture that a choice permits, and for the channels beside it.
 pub(crate) fn probe(path: &Path, source: Source<'_>, choice: &Choice) -> Result<Header, IoError> {
     let attributes = attributes::read(path, &mut *source)?;
-    let reader = open(path, source)?;
+    let reader = open(path, &mut *source)?;
     let (header, selection, _) = announce(path, reader.headers(), Wanted::Picture(choice))?;
-    Ok(with_attributes(header, attributes, selection.part))
+    let most = pixels_per_byte(&reader.headers()[selection.part]);
+    drop(reader);
+    held(path, source, with_attributes(header, attributes, selection.part), most)
+}
+
+/// Returns the most pixels that a byte of a file can hold; each has at least two bytes.
+fn pixels_per_byte(part: &Part) -> u64 {
+    match part.compression {
+        // Squares of 8 × 8 pixels, or runs, packed a second time.
+        Compression::DWAA(_) | Compression::DWAB(_) => 1 << 16,
+        _ => DEFLATE,
+    }
 }
 
 /// Adds the attributes of the part that is read.
@@ -56,8 +69,11 @@ fn with_attributes(mut header: Header, mut parts: Vec<Vec<Attribute>>, part: usi
 /// Reads a file's header for the two channels of its st map.
 pub(crate) fn probe_pairs(path: &Path, source: Source<'_>) -> Result<Header, IoError> {
     attributes::read(path, &mut *source)?;
-    let reader = open(path, source)?;
-    Ok(announce(path, reader.headers(), Wanted::Pair)?.0)
+    let reader = open(path, &mut *source)?;
+    let (header, selection, _) = announce(path, reader.headers(), Wanted::Pair)?;
+    let most = pixels_per_byte(&reader.headers()[selection.part]);
+    drop(reader);
+    held(path, source, header, most)
 }
 
 /// Reads the first part that holds a picture, at its largest resolution.
@@ -297,7 +313,11 @@ pub(super) fn each_block(
         if !batch.iter().all(|chunk| dwa::is_plausible(chunk, compression, block_bytes)) {
             return Err(Error::Invalid("a chunk larger than its block".into()));
         }
-        let decompress = |chunk: Chunk| UncompressedBlock::decompress_chunk(chunk, meta, false);
+        // Other threads do not know that this one's panics are caught.
+        let decompress = |chunk: Chunk| {
+            let block = contained(|| UncompressedBlock::decompress_chunk(chunk, meta, false));
+            block.unwrap_or_else(|reason| Err(Error::Invalid(reason.into())))
+        };
         let blocks: Result<Vec<UncompressedBlock>, Error> = if is_beside_others() {
             batch.into_iter().map(decompress).collect()
         } else {

@@ -13,11 +13,14 @@ use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
 use self::marks::Beside;
-use crate::codec::interface::{Codec, Sink, Source, whole_image};
+use crate::codec::interface::{Codec, Sink, Source, held, whole_image};
 use crate::metadata::{ADOBE_GAMMA, gpano, iptc, orientation};
 use crate::{Carried, Exif, Format, Header, ImageFile, IoError, Limits, Metadata, WriteOptions};
 
 const FORMAT: Format = Format::Jpeg;
+
+/// Most pixels that a byte of a file can hold: squares of 8 × 8, each of at least one bit.
+const PIXELS_PER_BYTE: u64 = 8 * 64;
 
 /// Codec of JPEG, baseline or progressive.
 pub(crate) struct Jpeg;
@@ -30,13 +33,13 @@ impl Codec for Jpeg {
     fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
         let beside = marks::beside(source);
         source.rewind().map_err(|error| IoError::open(path, error))?;
-        let mut decoder = decoder(path, source)?;
+        let mut decoder = decoder(path, &mut *source)?;
         let mut header = header(path, &mut decoder, beside)?;
         header.metadata.notes.extend(unread(beside.pictures));
         if beside.has_comment {
             Arc::make_mut(&mut header.metadata.carried).unread.push("a comment (COM)");
         }
-        Ok(header)
+        held(path, source, header, PIXELS_PER_BYTE)
     }
 
     fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
@@ -53,6 +56,7 @@ impl Codec for Jpeg {
             return Err(IoError::several(path, FORMAT, count, "pictures one behind the other"));
         }
         limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
+        header.check_capacity(path, bytes.len() as u64, PIXELS_PER_BYTE)?;
         let output = if header.channels == Channels::Grey { ColorSpace::Luma } else { ColorSpace::RGB };
         decoder.set_options(options().jpeg_set_out_colorspace(output));
         let mut samples = pool.take(header.width * header.height * header.channels.count());

@@ -8,7 +8,8 @@ use png::{BitDepth, ColorType, Decoder, DecodingError, Info, Reader, Transformat
 use super::carried::{self, Found};
 use super::colour;
 use crate::codec::behind::{next_bytes, skip_padding};
-use crate::codec::interface::{Source, whole_image};
+use crate::codec::interface::{Source, held, whole_image};
+use crate::header::DEFLATE;
 use crate::{Format, Header, ImageFile, IoError, Limits};
 
 const FORMAT: Format = Format::Png;
@@ -16,12 +17,16 @@ const FORMAT: Format = Format::Png;
 /// Most columns or rows that are read: as many as an output may have.
 const LONGEST_SIDE: u32 = 1_000_000;
 
+/// Most pixels that a byte of a file can hold: of one bit each.
+const PIXELS_PER_BYTE: u64 = 8 * DEFLATE;
+
 /// First bytes of every file.
 pub(super) const MARK: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 
 pub(crate) fn probe(path: &Path, source: Source<'_>) -> Result<Header, IoError> {
     let found = carried::read(&mut *source).map_err(|error| IoError::open(path, error))?;
-    Ok(header(&decoder(path, source)?, found))
+    let header = header(&decoder(path, &mut *source)?, found);
+    held(path, source, header, PIXELS_PER_BYTE)
 }
 
 pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {

@@ -5,7 +5,7 @@ use cosmorama::raster::{Channels, Depth, EncodedImage, FramePool, Primaries, Sam
 
 use super::rgbe;
 use crate::codec::behind::{next_bytes, skip_padding};
-use crate::codec::interface::{Codec, Sink, Source, whole_image};
+use crate::codec::interface::{Codec, Sink, Source, held, whole_image};
 use crate::{Format, Header, ImageFile, IoError, Limits, Metadata, WriteOptions};
 
 const FORMAT: Format = Format::Hdr;
@@ -30,7 +30,10 @@ impl Codec for Hdr {
     }
 
     fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
-        Ok(Preamble::read(path, source)?.header)
+        let Preamble { header, .. } = Preamble::read(path, &mut *source)?;
+        // A run may fill a row, which has at least one pixel of four bytes.
+        let most = header.width.div_ceil(4) as u64;
+        held(path, source, header, most)
     }
 
     fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {

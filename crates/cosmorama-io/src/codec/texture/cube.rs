@@ -7,12 +7,15 @@ use rayon::prelude::*;
 
 use super::packing::Packed;
 use super::texel::Texels;
-use crate::codec::interface::{Codec, Sink, Source, is_beside_others, whole_image};
+use crate::codec::interface::{Codec, Sink, Source, held, is_beside_others, whole_image};
 use crate::{EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata, WriteOptions};
 
 /// Supported textures, for messages.
 pub(super) const EXPECTED: &str = "a cube of 8-bit, half or float texels, RGB9E5, R11G11B10, BC1 to BC3, BC6H or BC7, as it is or packed by Zstandard \
      or zlib; textures of BasisLZ and UASTC are unpacked by `ktx transcode`";
+
+/// Most pixels that a byte of a file can hold: those of BC1, of four bits each.
+const PIXELS_PER_BYTE: u64 = 2;
 
 /// A format of textures that holds cubes with their mip levels.
 pub(super) trait TextureFormat: Sync {
@@ -45,7 +48,9 @@ impl<T: TextureFormat> Codec for T {
     }
 
     fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
-        Ok(self.texture(path, source)?.header(T::FORMAT))
+        let texture = self.texture(path, &mut *source)?;
+        let header = texture.header(T::FORMAT);
+        if texture.packed.is_some() { Ok(header) } else { held(path, source, header, PIXELS_PER_BYTE) }
     }
 
     fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, _: &FramePool) -> Result<ImageFile, IoError> {

@@ -1,13 +1,15 @@
+use std::io::SeekFrom;
 use std::path::Path;
 use std::sync::Arc;
 
 use cosmorama::raster::{AlphaMode, Channels, Depth, FramePool, Samples};
 use tiff::decoder::{Decoder, DecodingResult, DecodingSampleType};
-use tiff::tags::{SampleFormat, Tag};
+use tiff::tags::{CompressionMethod, SampleFormat, Tag};
 use tiff::{ColorType, TiffError};
 
 use super::{carried, extent};
 use crate::codec::interface::{Source, whole_image};
+use crate::header::DEFLATE;
 use crate::{Format, Header, ImageFile, IoError, Limits, Metadata};
 
 const FORMAT: Format = Format::Tiff;
@@ -18,8 +20,35 @@ pub(super) const ICC_PROFILE: Tag = Tag::Unknown(34675);
 pub(crate) fn probe(path: &Path, source: Source<'_>) -> Result<Header, IoError> {
     let mut decoder = Decoder::new(source).map_err(|error| damaged(path, &error))?;
     let mut header = header(path, &mut decoder)?;
+    check_capacity(path, &mut decoder, &header)?;
     header.metadata.notes.extend(beside(path, &mut decoder)?);
     Ok(header)
+}
+
+/// Refuses a header that declares more pixels than its strips or tiles can hold. Several may lie in the same place.
+fn check_capacity(path: &Path, decoder: &mut Decoder<Source<'_>>, header: &Header) -> Result<(), IoError> {
+    let lengths = [Tag::StripByteCounts, Tag::TileByteCounts]
+        .into_iter()
+        .find_map(|tag| decoder.find_tag_unsigned_vec::<u64>(tag).ok().flatten());
+    let method = decoder.find_tag_unsigned::<u16>(Tag::Compression).ok().flatten();
+    let (Some(lengths), Some(most)) = (lengths, pixels_per_byte(method)) else { return Ok(()) };
+    let whole = decoder.inner().seek(SeekFrom::End(0)).map_err(|error| IoError::open(path, error))?;
+    let length = lengths.into_iter().map(|length| length.min(whole)).fold(0, u64::saturating_add);
+    // Some programs count the bytes wrongly.
+    header.check_capacity(path, length.max(whole), most)
+}
+
+/// Returns the most pixels, of one bit each, that a byte of a strip can hold; `None` where a compression has no such limit.
+fn pixels_per_byte(method: Option<u16>) -> Option<u64> {
+    Some(match method.map_or(CompressionMethod::None, CompressionMethod::from_u16_exhaustive) {
+        CompressionMethod::None => 8,
+        // Runs of 128 in two bytes.
+        CompressionMethod::PackBits => 8 * 64,
+        CompressionMethod::Deflate | CompressionMethod::OldDeflate => 8 * DEFLATE,
+        // Strings of 4096 in twelve bits.
+        CompressionMethod::LZW => 8 * 2731,
+        _ => return None,
+    })
 }
 
 /// Refuses a file with further pages as large as the first, and reports other pages. Copies at a lower resolution, and

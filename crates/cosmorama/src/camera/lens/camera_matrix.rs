@@ -16,6 +16,9 @@ pub struct CameraMatrix {
     pub(crate) roll: Angle,
 }
 
+/// Least determinant of a matrix that is not singular: that of focal lengths of a millionth of a pixel.
+const LEAST_DETERMINANT: f64 = 1e-12;
+
 impl CameraMatrix {
     /// Returns the matrix whose two rows map a point (right, down, 1) of the lens's plane to columns and rows of the
     /// image. As in OpenCV and OCamCalib, (0, 0) is the CENTRE of the first pixel.
@@ -25,7 +28,7 @@ impl CameraMatrix {
     pub fn from_rows(rows: [[f64; 3]; 2]) -> Result<Self, CameraError> {
         let [[a, b, x], [c, d, y]] = rows;
         let determinant = a * d - b * c;
-        if !(determinant > 0.0 && rows.as_flattened().iter().all(|number| number.is_finite())) {
+        if !(determinant >= LEAST_DETERMINANT && rows.as_flattened().iter().all(|number| number.is_finite())) {
             return Err(CameraError::CameraMatrix { determinant });
         }
         // The matrix is an upper triangular one times a rotation, which is that of the sensor.

@@ -300,9 +300,9 @@ fn add_seen(source: &Source, pixel: PixelPoint, need: &mut Need) {
 }
 
 fn add_read(world: &World, texel: usize, needs: &mut [Need]) {
-    let owner = world.sources().iter().position(|source| source.texels().contains(&texel));
-    let Some(index) = owner else { return };
-    let source = &world.sources()[index];
+    // Sources lie one behind the other.
+    let index = world.sources().partition_point(|source| source.texels().end <= texel);
+    let Some(source) = world.sources().get(index).filter(|source| source.texels().contains(&texel)) else { return };
     let (i, j) = ((texel - source.offset) % source.view.width(), (texel - source.offset) / source.view.width());
     needs[index].read = union(needs[index].read, Some(one_texel(i, j)));
 }
