@@ -127,8 +127,8 @@ impl<'a> Reader<'a> {
             "g" | "o" => self.group = rest.to_owned(),
             "mtllib" => return self.library(rest),
             "usemtl" => self.material = Some(rest.to_owned()),
-            _ if key.starts_with('#') => {}
-            _ if self.ignored.contains(key) => {}
+            // Comments, and what is no key.
+            _ if !key.starts_with(|letter: char| letter.is_ascii_alphabetic()) || self.ignored.contains(key) => {}
             _ => {
                 self.ignored.insert(key.to_owned());
             }

@@ -104,7 +104,7 @@ fn decibels(a: &Image<Rgba>, b: &Image<Rgba>) -> f64 {
 fn a_ball_of_triangles_looks_as_the_ball_does() {
     let sphere = Sphere::new(DVec3::ZERO, 1.0);
     let (perspective, parallel) = (lens([0.4, 1.0, 4.0], 34.0, (160, 120)), parallel(2.4, [120, 120]));
-    for (camera, material, least) in [(&perspective, Material::MIRROR, 53.0), (&parallel, Material::MATTE, 54.0)] {
+    for (camera, material, least) in [(&perspective, Material::MIRROR, 53.0), (&parallel, Material::MATTE, 55.0)] {
         let found = made(vec![object(ball(256), material.clone())], camera);
         let expected = made(vec![Object::sphere(sphere, material.clone())], camera);
         let decibels = decibels(&found, &expected);
@@ -120,7 +120,7 @@ fn glass_of_triangles_looks_as_a_ball_of_glass_does() {
     let expected = made(vec![Object::sphere(Sphere::new(DVec3::ZERO, 1.0), Material::GLASS)], &camera);
     let decibels = decibels(&found, &expected);
     println!("{decibels:.1} dB");
-    assert!(decibels > 46.0, "{decibels:.1} dB");
+    assert!(decibels > 47.0, "{decibels:.1} dB");
 }
 
 #[test]
@@ -303,7 +303,7 @@ fn a_coarse_ring_of_glass_is_nearly_a_fine_one() {
         [64, 256].map(|columns| made(vec![object(torus(columns, columns / 2), deep_glass())], &camera));
     let decibels = decibels(&coarse, &fine);
     println!("{decibels:.1} dB");
-    assert!(decibels > 20.0, "{decibels:.1} dB");
+    assert!(decibels > 43.0, "{decibels:.1} dB");
 }
 
 #[test]
