@@ -295,7 +295,7 @@ fn a_ring_of_glass_loses_no_light() {
     }
 }
 
-/// Few triangles with smooth normals refract nearly as many do: light keeps track of the side that it is on.
+/// Few triangles with smooth normals refract nearly as many do.
 #[test]
 fn a_coarse_ring_of_glass_is_nearly_a_fine_one() {
     let camera = lens([1.0, 2.0, 3.5], 44.0, (64, 64));
