@@ -51,9 +51,18 @@ pub enum SceneError {
     /// The maps of light are not those of the scene's materials.
     #[error("the maps of light are of another scene: there is none for {0}")]
     NoMap(&'static str),
-    /// A mesh of glass has a hole.
+    /// A ball is nowhere, or has no surface.
+    #[error("a ball of radius {radius} at {centre:?} is none; expected finite numbers, and a radius more than 0")]
+    Ball {
+        /// Its centre.
+        centre: [f64; 3],
+        /// Its radius.
+        radius: f64,
+    },
+    /// A mesh of glass bounds no solid.
     #[error(
-        "glass must be closed, but the mesh ends at the edge from {:?} to {:?}; close it, or give it another material",
+        "glass must be closed, but the mesh ends or turns inside out at the edge from {:?} to {:?}; mend it, or give it another \
+         material",
         .0[0], .0[1]
     )]
     Open([[f64; 3]; 2]),

@@ -47,7 +47,7 @@ pub use material::{
 pub use model::{
     EXTENSIONS as MODEL_EXTENSIONS, Model, ModelCamera, ModelError, ModelFault, ModelLens, ModelSettings, Placing,
 };
-pub use picture::{Background, picture};
+pub use picture::{Background, backdrop, picture, picture_over};
 pub use ray::{Normal, Ray, RayChange};
 pub use scene::{Object, Part, Scene};
 pub use scene_file::{FileCamera, Located, NamedWorld, SceneFile, SceneFileError, SceneReader};

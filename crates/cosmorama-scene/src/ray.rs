@@ -45,6 +45,28 @@ impl Normal {
         Self { unit: -self.unit, dx: -self.dx, dy: -self.dy }
     }
 
+    /// Returns the normal bent back until it just faces a ray, if it leans away from it: smooth normals do so at outlines.
+    ///
+    /// That is N − (D·N + ε)D, made a unit vector, with its derivatives.
+    #[must_use]
+    pub(crate) fn leaning_back(self, ray: &Ray) -> Self {
+        /// Cosine between the normal and the way back.
+        const LEAST: f64 = 1e-3;
+        let (direction, slope) = (ray.direction, self.unit.dot(ray.direction) + LEAST);
+        if slope <= 0.0 {
+            return self;
+        }
+        let bent = self.unit - direction * slope;
+        let length = bent.length();
+        let unit = bent / length;
+        let change = |turned: DVec3, moved: DVec3| {
+            let steeper = turned.dot(direction) + self.unit.dot(moved);
+            let change = turned - moved * slope - direction * steeper;
+            (change - unit * unit.dot(change)) / length
+        };
+        Self { unit, dx: change(self.dx, ray.dx.direction), dy: change(self.dy, ray.dy.direction) }
+    }
+
     /// Returns the normal of the side that a ray comes from.
     #[must_use]
     pub fn facing(self, ray: &Ray) -> Self {
@@ -154,12 +176,23 @@ impl Ray {
 
     /// Returns the part of the world that the ray sees, if nothing is in its way.
     pub fn footprint(&self) -> Footprint {
-        Footprint::new(Direction::from_unit(self.direction), self.dx.direction, self.dy.direction)
+        footprint_of(self.direction, [self.dx.direction, self.dy.direction])
     }
 
     /// Returns the longest change of the direction, in radians per pixel.
     pub fn widest(&self) -> f64 {
         self.dx.direction.length_squared().max(self.dy.direction.length_squared()).sqrt()
+    }
+}
+
+/// Returns the part of the world about a direction; a point of it where the changes have no end, as those of a ray that only
+/// touches a surface.
+pub(crate) fn footprint_of(direction: DVec3, [dx, dy]: [DVec3; 2]) -> Footprint {
+    let direction = Direction::from_unit(direction);
+    if (dx.length_squared() + dy.length_squared()).is_finite() {
+        Footprint::new(direction, dx, dy)
+    } else {
+        Footprint::point(direction)
     }
 }
 
@@ -215,6 +248,30 @@ mod tests {
             count += 1;
         }
         assert!(count > 100, "{count} rays meet the ball");
+    }
+
+    #[test]
+    fn normals_that_lean_away_just_face_the_ray() {
+        let (here, h) = (ray(0.1, 0.05), 1e-6);
+        let lean = |x: f64| DVec3::new(0.8 + x, 0.3, -0.4 + 0.2 * x).normalize();
+        let normal = |x: f64| Normal { unit: lean(x), dx: (lean(x + h) - lean(x - h)) / (2.0 * h), dy: DVec3::ZERO };
+        let bent = normal(0.0).leaning_back(&here);
+        assert!(normal(0.0).unit.dot(here.direction) > 0.1);
+        let slope = bent.unit.dot(here.direction);
+        assert!(slope < 0.0 && slope > -2e-3 && (bent.unit.length() - 1.0).abs() < 1e-12, "{slope}");
+        let [left, right] = [-h, h].map(|x| normal(x).leaning_back(&ray(0.1 + x, 0.05)).unit);
+        let expected = (right - left) / (2.0 * h);
+        assert!((bent.dx - expected).length() < 1e-6, "{} for {expected}", bent.dx);
+        let facing = Normal { unit: -here.direction, ..bent };
+        assert_eq!(facing.leaning_back(&here), facing);
+    }
+
+    #[test]
+    fn rays_that_touch_see_a_point_of_the_world() {
+        let met = ray(0.1, 0.2).met(3.0, DVec3::Z.cross(ray(0.1, 0.2).direction).normalize());
+        let still = Normal { unit: DVec3::Z, dx: met.dx.origin / 0.0, dy: DVec3::ZERO };
+        let seen = met.reflected(&still).footprint();
+        assert_eq!(seen, Footprint::point(seen.direction));
     }
 
     #[test]

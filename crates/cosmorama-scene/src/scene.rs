@@ -102,13 +102,18 @@ impl Scene {
         self.parts().filter(move |part| part.world == world).map(|part| &part.material)
     }
 
-    /// Checks that all materials are in range.
+    /// Checks that all balls and materials are in range.
     pub(crate) fn check(&self) -> Result<(), SceneError> {
         for object in &self.objects {
             object.parts.iter().try_for_each(|part| part.material.check())?;
             let (part, count) = (object.shape.last_part(), object.parts.len());
             if part >= count {
                 return Err(SceneError::NoPart { part, count });
+            }
+            if let Shape::Sphere(ball) = &object.shape
+                && !(ball.centre.is_finite() && ball.radius.is_finite() && ball.radius > 0.0)
+            {
+                return Err(SceneError::Ball { centre: ball.centre.to_array(), radius: ball.radius });
             }
             let is_glass = object.parts.iter().any(|part| part.material.glass.is_some());
             if let (true, Shape::Mesh(mesh)) = (is_glass, &object.shape)

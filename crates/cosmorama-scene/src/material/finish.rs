@@ -96,6 +96,11 @@ impl NormalMap {
         Self { map: Arc::new(Texture::new(normals, wrap)), scale }
     }
 
+    /// Returns the map with another factor.
+    pub(crate) fn with_scale(self, scale: f64) -> Self {
+        Self { scale, ..self }
+    }
+
     /// Returns the normals.
     pub(crate) fn map(&self) -> &Texture {
         &self.map
@@ -122,6 +127,12 @@ impl Finish {
     /// Returns what scatters all light of a picture, and reflects nothing.
     pub fn matt(base: Paint) -> Self {
         Self { base, roughness: 1.0, specular: 0.0, ..Self::default() }
+    }
+
+    /// Returns whether it has a picture.
+    pub(super) fn has_pictures(&self) -> bool {
+        let maps = [&self.base.map, &self.metal_map, &self.emissive.map];
+        self.normal_map.is_some() || maps.into_iter().any(Option::is_some)
     }
 
     /// Returns the light that the insulator reflects straight on.

@@ -106,6 +106,11 @@ impl Material {
         }
     }
 
+    /// Returns whether it has a picture.
+    pub(crate) fn has_pictures(&self) -> bool {
+        self.finish.as_ref().is_some_and(|finish| finish.has_pictures())
+    }
+
     /// Returns whether some light is scattered.
     pub(crate) fn is_matt(&self) -> bool {
         self.diffuse > 0.0 && self.finish.as_ref().is_none_or(|finish| finish.is_matt())

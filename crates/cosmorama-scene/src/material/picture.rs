@@ -22,7 +22,7 @@ pub enum PictureSource<'a> {
 
 /// Reader of the pictures that files name.
 pub trait PictureReader {
-    /// Reads a picture.
+    /// Reads a picture. Its alpha does not count: surfaces are opaque, and colours under an alpha of 0 are wanted, too.
     ///
     /// # Errors
     /// When it cannot be read; the reason is told behind what names it.

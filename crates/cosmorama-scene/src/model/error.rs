@@ -49,7 +49,18 @@ pub enum ModelFault {
     /// Its triangles are no surface.
     #[error(transparent)]
     Mesh(#[from] MeshError),
-    /// It has more triangles than there is memory for.
+    /// Pictures were asked for on a surface that has no places for them.
+    #[error("it has no texture coordinates, so that no picture can be laid on it; export it with them")]
+    NoCoordinates,
+    /// It has more bytes than there is memory for.
+    #[error("it has {bytes} bytes, and there is memory for {most}")]
+    TooLong {
+        /// Number of bytes.
+        bytes: u64,
+        /// Greatest number.
+        most: u64,
+    },
+    /// It has more triangles, or as many vertices, than there is memory for.
     #[error("it has {count} triangles, and there is memory for {most}")]
     TooLarge {
         /// Number of triangles.

@@ -2,6 +2,7 @@
 
 mod camera;
 mod error;
+mod file;
 mod gltf;
 mod mtl;
 mod obj;
@@ -58,6 +59,19 @@ pub struct Placing {
     pub origin: DVec3,
 }
 
+impl ModelSettings {
+    /// Returns the greatest number of bytes of a file.
+    fn most_bytes(&self) -> u64 {
+        self.most.saturating_mul(Model::TRIANGLE_BYTES) as u64
+    }
+
+    /// Checks that so many triangles, of so many vertices, may be read.
+    fn check_counts(&self, triangles: usize, vertices: usize) -> Result<(), ModelFault> {
+        let count = triangles.max(vertices / 3);
+        if count > self.most { Err(ModelFault::TooLarge { count, most: self.most }) } else { Ok(()) }
+    }
+}
+
 impl Placing {
     /// Returns the place of a point.
     pub(crate) fn point(&self, point: DVec3) -> DVec3 {
@@ -85,18 +99,28 @@ struct Contents {
     notes: Vec<String>,
     /// Crease of normals that the file lacks.
     crease: Angle,
+    /// Whether some of its surfaces are meant to be seen from one side alone.
+    is_one_sided: bool,
 }
 
 impl Contents {
     /// Returns a file of nothing.
     fn new(crease: Angle) -> Self {
-        Self { faces: Vec::new(), parts: Vec::new(), cameras: Vec::new(), notes: Vec::new(), crease }
+        let (faces, parts, cameras, notes) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Self { faces, parts, cameras, notes, crease, is_one_sided: false }
     }
 }
 
 impl Model {
     /// Memory of a triangle at most, while it is read: as a face twice, with its normals, coordinates, edges and tree.
     pub const TRIANGLE_BYTES: usize = 1500;
+
+    /// Returns the memory that its triangles take, at most.
+    pub fn kept_bytes(&self) -> usize {
+        /// Memory of a triangle once it is read.
+        const TRIANGLE: usize = 500;
+        self.object.shape.mesh().map_or(0, |mesh| mesh.count() * TRIANGLE)
+    }
 
     /// Reads a model, with the pictures of its materials.
     ///
@@ -109,7 +133,7 @@ impl Model {
 
 fn read(path: &Path, settings: &ModelSettings, pictures: &mut dyn PictureReader) -> Result<Model, ModelFault> {
     let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
-    let Contents { faces, mut parts, mut cameras, mut notes, crease } = match extension.as_deref() {
+    let Contents { faces, mut parts, mut cameras, mut notes, crease, is_one_sided } = match extension.as_deref() {
         Some("obj") => obj::read(path, settings, pictures)?,
         Some("gltf" | "glb") => gltf::read(path, settings, pictures)?,
         _ => return Err(ModelFault::Extension),
@@ -126,12 +150,25 @@ fn read(path: &Path, settings: &ModelSettings, pictures: &mut dyn PictureReader)
     if mesh.skipped() > 0 {
         notes.push(format!("{} triangles without area are left out", mesh.skipped()));
     }
+    if is_one_sided && mesh.hole().is_some() {
+        notes.push("surfaces of one side are seen from both".to_owned());
+    }
     if let Some(material) = &settings.material {
+        if material.has_pictures() && !mesh.has_maps() {
+            return Err(ModelFault::NoCoordinates);
+        }
         parts.iter_mut().for_each(|part| part.material = material.clone());
     }
     for part in &parts {
         let fault = |why: String| ModelFault::Piece { piece: format!("material of {}", part.name), why };
         part.material.check().map_err(|error| fault(format!("is out of range: {error}")))?;
+    }
+    let bare = mesh.bare_parts();
+    let is_bare = |(number, part): &(usize, &Part)| part.material.has_pictures() && bare.contains(number);
+    let lost = parts.iter().enumerate().filter(is_bare).map(|(_, part)| part.name.as_str()).collect::<Vec<_>>();
+    if !lost.is_empty() {
+        let note = format!("without texture coordinates, pictures are not shown on all of: {}", lost.join(", "));
+        notes.push(note);
     }
     Ok(Model { object: Object { shape: Shape::Mesh(Arc::new(mesh)), parts }, cameras, notes })
 }

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use cosmorama::filter::{Texture, Wrap};
 use cosmorama::raster::{Image, Rgba};
 
+use super::file::beside;
 use super::obj::{keyed, numbers};
 use crate::material::{Finish, Material, NormalMap, Paint, PictureKind, PictureReader, PictureSource};
 
@@ -194,6 +195,7 @@ impl Map {
     }
 
     fn read(&self, folder: &Path, kind: PictureKind, pictures: &mut dyn PictureReader) -> Result<Image<Rgba>, String> {
-        pictures.picture(PictureSource::File(&folder.join(&self.file)), kind)
+        let path = beside(folder, &self.file).map_err(|why| format!("{} {why}", self.file))?;
+        pictures.picture(PictureSource::File(&path), kind)
     }
 }

@@ -1,13 +1,12 @@
 //! Wavefront OBJ. Read here, since errors then name the line, and nothing in a file can stop the program.
 
 use std::collections::{BTreeSet, HashMap};
-use std::fs::File;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use cosmorama::sphere::Angle;
 use glam::{DVec2, DVec3};
 
+use super::file::{self, beside};
 use super::mtl::{Entry, Library};
 use super::{Contents, ModelFault, ModelSettings};
 use crate::material::{Material, PictureReader};
@@ -36,6 +35,10 @@ struct Reader<'a> {
     made: HashMap<String, Material>,
     /// Names of materials that no library has.
     lost: BTreeSet<String>,
+    /// Keys of lines that are not read.
+    ignored: BTreeSet<String>,
+    /// Whether vertices have colours.
+    has_colours: bool,
     /// Folder of the file.
     folder: PathBuf,
 }
@@ -52,18 +55,17 @@ pub(super) fn read(
     settings: &ModelSettings,
     pictures: &mut dyn PictureReader,
 ) -> Result<Contents, ModelFault> {
-    let text = std::fs::read(path)?;
+    let text = file::read(path, settings.most_bytes())?;
     let text = String::from_utf8_lossy(&text);
-    let count = text.lines().map(triangles).sum();
-    if count > settings.most {
-        return Err(ModelFault::TooLarge { count, most: settings.most });
-    }
+    settings.check_counts(text.lines().map(triangles).sum(), text.lines().filter(|line| is_vertex(line)).count())?;
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
     let mut reader = Reader::new(folder, settings.material.is_none(), pictures);
     for (number, line) in text.lines().enumerate() {
         reader.line(line).map_err(|why| ModelFault::Line { line: number + 1, why })?;
     }
     reader.name_parts();
+    let ignored = ignored(&reader);
+    reader.contents.notes.extend(ignored);
     let lost = reader.lost.into_iter().map(|name| format!("material {name} is in no library: its parts are mirrors"));
     reader.contents.notes.extend(lost);
     Ok(reader.contents)
@@ -73,6 +75,22 @@ pub(super) fn read(
 fn triangles(line: &str) -> usize {
     let mut words = line.split_ascii_whitespace();
     if words.next() == Some("f") { words.count().saturating_sub(2) } else { 0 }
+}
+
+/// Returns whether a line is a point, a normal or texture coordinates.
+fn is_vertex(line: &str) -> bool {
+    keyed(line).is_some_and(|(key, _)| matches!(key, "v" | "vn" | "vt"))
+}
+
+/// Lists what lines say that is not read. Groups of smoothing count where normals are made.
+fn ignored(reader: &Reader) -> Option<String> {
+    /// Most keys that are told.
+    const MOST: usize = 12;
+    let has_normals = reader.contents.faces.iter().all(|face| face.normals.is_some());
+    let keys = reader.ignored.iter().map(String::as_str).filter(|key| *key != "s" || !has_normals);
+    let colours = reader.has_colours.then_some("colours of vertices");
+    let all: Vec<&str> = keys.take(MOST).chain(colours).collect();
+    (!all.is_empty()).then(|| format!("these are not read: {}", all.join(", ")))
 }
 
 impl<'a> Reader<'a> {
@@ -89,6 +107,8 @@ impl<'a> Reader<'a> {
             pictures,
             made: HashMap::new(),
             lost: BTreeSet::new(),
+            ignored: BTreeSet::new(),
+            has_colours: false,
             folder,
         }
     }
@@ -96,14 +116,22 @@ impl<'a> Reader<'a> {
     fn line(&mut self, line: &str) -> Result<(), String> {
         let Some((key, rest)) = keyed(line) else { return Ok(()) };
         match key {
-            "v" => self.points.push(numbers(rest)?.into()),
+            "v" => {
+                // Behind a point is a weight, or a colour.
+                self.has_colours |= rest.split_ascii_whitespace().nth(5).is_some();
+                self.points.push(numbers(rest)?.into());
+            }
             "vn" => self.normals.push(numbers(rest)?.into()),
             "vt" => self.uvs.push(texture_coordinates(rest)?),
             "f" => return self.face(rest),
             "g" | "o" => self.group = rest.to_owned(),
             "mtllib" => return self.library(rest),
             "usemtl" => self.material = Some(rest.to_owned()),
-            _ => {}
+            // Comments, and what is no key.
+            _ if !key.starts_with(|letter: char| letter.is_ascii_alphabetic()) || self.ignored.contains(key) => {}
+            _ => {
+                self.ignored.insert(key.to_owned());
+            }
         }
         Ok(())
     }
@@ -111,18 +139,14 @@ impl<'a> Reader<'a> {
     /// Reads a library of materials; one that is missing is told.
     fn library(&mut self, name: &str) -> Result<(), String> {
         let Some(materials) = &mut self.materials else { return Ok(()) };
-        let mut bytes = Vec::new();
-        let file = File::open(self.folder.join(name));
-        match file.and_then(|file| file.take(LARGEST_LIBRARY + 1).read_to_end(&mut bytes)) {
-            Ok(count) if count as u64 > LARGEST_LIBRARY => {
-                return Err(format!("{name} has more than {LARGEST_LIBRARY} bytes"));
-            }
-            Ok(_) => {}
-            Err(error) => {
-                self.contents.notes.push(format!("its materials are not read: {name}: {error}"));
+        let found = beside(&self.folder, name);
+        let bytes = match found.and_then(|path| file::read(&path, LARGEST_LIBRARY).map_err(|error| error.to_string())) {
+            Ok(bytes) => bytes,
+            Err(why) => {
+                self.contents.notes.push(format!("its materials are not read: {name} {why}"));
                 return Ok(());
             }
-        }
+        };
         let library = Library::parse(&String::from_utf8_lossy(&bytes))
             .map_err(|(line, why)| format!("in {name}, line {line}: {why}"))?;
         materials.extend(library.materials);

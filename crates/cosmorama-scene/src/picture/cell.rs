@@ -22,6 +22,8 @@ pub(super) struct Pixel<'a> {
     pub(super) reflections: &'a [Option<Reflection>],
     /// Pixels that edges of meshes cross.
     pub(super) marks: &'a Marks,
+    /// Finest difference of places whose rays of occlusion differ.
+    pub(super) grain: f64,
 }
 
 /// A square part of a pixel.
@@ -53,7 +55,7 @@ struct Part<'a> {
     sphere: &'a Sphere,
     /// The sphere's place in the scene.
     object: usize,
-    /// Distance of its centre, by which nearer things hide others.
+    /// Distance at which it is met, or nearly so: nearer things hide others.
     distance: f64,
     coverage: f64,
     /// Offset of the middle of what is covered, in parts of the cell.
@@ -126,8 +128,9 @@ impl<'a> Pixel<'a> {
     /// Returns the light of a cell in which one surface is seen, of what a ray through its middle meets.
     pub(super) fn smooth(&self, cell: Cell, met: Option<Sighting>, things: &[usize]) -> Rgba {
         let Some(Sighting { ray, object, hit }) = met else { return Rgba::TRANSPARENT };
-        let wall = self.scene.objects[object].shape.wall(&ray.scaled(cell.side), &hit);
-        let may_split = cell.depth < MOST_OF_MESHES;
+        let shape = &self.scene.objects[object].shape;
+        let wall = shape.wall(&ray.scaled(cell.side), &hit);
+        let may_split = cell.depth < if shape.mesh().is_some() { MOST_OF_MESHES } else { MOST };
         let seen = Seen { object, wall: &wall, pixel: cell.pixel, depth: cell.depth, may_split };
         let quarter = |quarter: Cell| self.smooth(quarter, self.sighting(quarter.centre, things), things);
         self.lit(&seen).unwrap_or_else(|| mean(cell, quarter))
@@ -148,7 +151,8 @@ impl<'a> Pixel<'a> {
                 Meeting::Crossed(edge) => (edge.coverage(), edge.middle()),
             };
             if coverage > LEAST {
-                let distance = (sphere.centre - beam.origin).dot(beam.direction);
+                let closest = || (sphere.centre - beam.origin).dot(beam.direction);
+                let distance = sphere.meet(beam, 0.0).unwrap_or_else(closest);
                 parts.push(Part { sphere, object: *object, distance, coverage, middle });
             }
         }
@@ -186,7 +190,7 @@ impl<'a> Pixel<'a> {
         let world = &self.worlds[part.world];
         let mut surface = world.surface(seen.wall, &part.material);
         if world.has_occlusion() && surface.is_matt() {
-            surface = surface.shadowed(openness(self.scene, seen.wall));
+            surface = surface.shadowed(openness(self.scene, seen.wall, self.grain));
         }
         let whole = self.reflections[seen.object].as_ref().and_then(|reflection| reflection.light(seen.pixel));
         if let Some(reflected) = whole {

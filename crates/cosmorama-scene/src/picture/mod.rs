@@ -19,6 +19,7 @@ use crate::shade::{Detail, Surroundings};
 
 use cell::Pixel;
 use marks::Marks;
+use occlusion::grain;
 use small::Reflection;
 use tiles::Tile;
 
@@ -42,28 +43,48 @@ pub enum Background {
 /// threads.
 ///
 /// # Errors
-/// When a world is missing, or has no maps of light for the materials under it.
+/// When the scene is out of range, a world is missing, or has no maps of light for the materials under it.
 pub fn picture(
     scene: &Scene,
     camera: &Camera,
     worlds: &[Surroundings],
     background: Background,
 ) -> Result<Image<Rgba>, SceneError> {
+    let behind = worlds.first().ok_or(SceneError::NoWorld { number: 0, count: 0 })?;
+    picture_over(scene, camera, worlds, backdrop(camera, behind, background))
+}
+
+/// Makes the picture of a scene as [`picture`] does, over a [`backdrop`] of the same camera. Of things that are turned it is the
+/// same for all pictures.
+///
+/// # Errors
+/// When the scene is out of range, a world is missing, or has no maps of light for the materials under it.
+///
+/// # Panics
+/// When the backdrop has not the size of the camera's picture.
+pub fn picture_over(
+    scene: &Scene,
+    camera: &Camera,
+    worlds: &[Surroundings],
+    mut image: Image<Rgba>,
+) -> Result<Image<Rgba>, SceneError> {
+    assert_eq!((image.width(), image.height()), (camera.width(), camera.height()), "a backdrop of the camera");
+    scene.check()?;
     let most = scene.parts().map(|part| part.world).max().unwrap_or(0);
     let (Some(behind), true) = (worlds.first(), most < worlds.len()) else {
         return Err(SceneError::NoWorld { number: most, count: worlds.len() });
     };
     worlds.iter().enumerate().try_for_each(|(number, world)| world.check(scene, number))?;
-    let mut image = backdrop(camera, behind, background);
     // Things stay, and the camera turns the other way.
     let camera = &camera.turned(&behind.turn().transpose());
     let width = camera.width();
-    let seen = Tile::all(camera).map(|tile| (tile, tile.things(scene, camera)));
+    let tiles: Vec<Tile> = Tile::all(camera).collect();
+    let seen = tiles.par_iter().map(|tile| (*tile, tile.things(scene, camera)));
     let seen: Vec<(Tile, Vec<usize>)> = seen.filter(|(_, things)| !things.is_empty()).collect();
     let reflection = |object: &Object| Reflection::of(object, camera, &worlds[object.parts.first()?.world]);
     let reflections: Vec<Option<Reflection>> = scene.objects.iter().map(reflection).collect();
     let marks = Marks::of(scene, camera);
-    let pixel = Pixel { scene, camera, worlds, reflections: &reflections, marks: &marks };
+    let pixel = Pixel { scene, camera, worlds, reflections: &reflections, marks: &marks, grain: grain(scene) };
     let made: Vec<([usize; 2], Rgba)> =
         seen.par_iter().flat_map_iter(|(tile, things)| pixel.tile(tile, things)).collect();
     for ([i, j], thing) in made {
@@ -74,7 +95,7 @@ pub fn picture(
 }
 
 /// Makes the picture without things.
-fn backdrop(camera: &Camera, surroundings: &Surroundings, background: Background) -> Image<Rgba> {
+pub fn backdrop(camera: &Camera, surroundings: &Surroundings, background: Background) -> Image<Rgba> {
     match (background, camera) {
         (Background::World, Camera::Lens { .. }) if !surroundings.is_far() => near_world(camera, surroundings),
         (Background::World, Camera::Lens { view, .. }) => {

@@ -23,16 +23,20 @@ const STEPS: [DVec3; 2] = [
 /// Finest difference of places, as a part of a thing's radius, that has other rays.
 const GRAIN: f64 = 1e-3;
 
+/// Returns the finest difference of places in a scene that has other rays.
+pub(super) fn grain(scene: &Scene) -> f64 {
+    GRAIN * scene.objects.iter().map(|object| object.shape.ball().radius).fold(f64::INFINITY, f64::min)
+}
+
 /// Returns the part of the light from all sides, weighed by the cosine, that reaches a place: 1 if no thing hides any.
 ///
-/// The rays of a place are those of its coordinates, so that pictures do not depend on threads.
-pub(super) fn openness(scene: &Scene, wall: &Wall) -> f64 {
+/// The rays of a place are those of its coordinates, by the scene's grain, so that pictures do not depend on threads.
+pub(super) fn openness(scene: &Scene, wall: &Wall, grain: f64) -> f64 {
     // On the side that is seen, even where smooth normals lean away from the eye.
     let normal = wall.normal.unit;
     let (right, up) = normal.any_orthonormal_pair();
-    let size = scene.objects.iter().map(|object| object.shape.ball().radius).fold(f64::INFINITY, f64::min);
-    let grain = (wall.met.origin / (GRAIN * size)).floor();
-    let [around, outward] = STEPS.map(|step| grain.dot(step).rem_euclid(1.0));
+    let place = (wall.met.origin / grain).floor();
+    let [around, outward] = STEPS.map(|step| place.dot(step).rem_euclid(1.0));
     let is_open = |k: usize| {
         // Equal parts of the disc under the hemisphere are equal parts of the light (Malley's method).
         let radius = ((k as f64 + outward) / RAYS as f64).sqrt();

@@ -56,7 +56,16 @@ impl Pixel<'_> {
             let beside = [at(i.wrapping_sub(1), j), at(i + 1, j), at(i, j.wrapping_sub(1)), at(i, j + 1)];
             beside.iter().any(|other| other.is_some() && *other != own)
         };
+        // Balls look the same wherever a mesh is in the picture, if not beside it.
+        let is_of_balls = |i: usize, j: usize| {
+            let is_mesh = |met: (usize, u32)| self.scene.objects[met.0].shape.mesh().is_some();
+            let near = (0..9).map(|k| at((i + k % 3).wrapping_sub(1), (j + k / 3).wrapping_sub(1)).flatten());
+            !self.marks.has(i, j) && !near.flatten().any(is_mesh)
+        };
         let light = |(i, j): (usize, usize)| {
+            if is_of_balls(i, j) {
+                return Some(([i, j], self.light(i, j, things)?));
+            }
             if self.marks.has(i, j) || is_broken(i, j) || self.is_outline(i, j, things) {
                 return self.sampled([i, j], things).map(|light| ([i, j], light));
             }

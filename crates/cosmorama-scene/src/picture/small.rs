@@ -55,8 +55,8 @@ struct Thrower<'a> {
 }
 
 impl Reflection {
-    /// Computes what a ball reflects; `None` for a large one, for one that is not seen, for glass and
-    /// for chrome, and under a world that is near.
+    /// Computes what a ball reflects; `None` for a large one, for one that is not seen or beside the picture, for glass and for
+    /// chrome, and under a world that is near.
     pub(super) fn of(object: &Object, camera: &Camera, surroundings: &Surroundings) -> Option<Self> {
         let Shape::Sphere(sphere) = &object.shape else { return None };
         let material = &object.parts.first()?.material;
@@ -65,6 +65,9 @@ impl Reflection {
         }
         let gloss = Gloss::of(material).filter(|gloss| *gloss != Gloss::Chrome && material.glass.is_none())?;
         let radius = radius_in_pixels(sphere, camera).filter(|radius| *radius < SMALL)?;
+        if !is_in_frame(camera.pixel(sphere.centre)?, camera) {
+            return None;
+        }
         let parts = (PARTS * (2.0 * radius / FEW).max(1.0)).ceil() as usize;
         let thrower = Thrower { sphere, gloss, camera, surroundings };
         // In order, so that sums are those of any number of threads.
@@ -123,6 +126,14 @@ fn radius_in_pixels(sphere: &Sphere, camera: &Camera) -> Option<f64> {
     let distance = (sphere.centre - ray.origin).length();
     let [dx, dy] = ray.spread(distance);
     (distance > sphere.radius).then(|| sphere.radius / dx.length().min(dy.length()))
+}
+
+/// Returns whether a small ball at a place may reach into the picture.
+fn is_in_frame(centre: PixelPoint, camera: &Camera) -> bool {
+    /// Room for balls whose pictures are drawn out.
+    const ROOM: f64 = 4.0 * SMALL;
+    let near = |at: f64, size: usize| (-ROOM..=size as f64 + ROOM).contains(&at);
+    near(centre.x, camera.width()) && near(centre.y, camera.height())
 }
 
 /// Rectangle of the picture where a part of the world is seen.

@@ -6,23 +6,30 @@ use cosmorama::filter::{Texture, Wrap};
 use cosmorama::raster::{Image, Rgba};
 use toml::Spanned;
 
-use super::SceneReader;
 use super::error::{SceneFileError, Source};
 use super::written::{Kind, MaterialEntry, WrapName};
-use crate::material::{Finish, Glass, Material, NormalMap, Paint, PictureKind, PictureSource};
+use crate::material::{Finish, Glass, Material, NormalMap, Paint, PictureKind, PictureReader, PictureSource};
+use crate::shape::Sphere;
 
 /// Roughness of metallic-roughness, unless given.
 const ROUGHNESS: f64 = 0.5;
 
 impl MaterialEntry {
-    /// Returns the material, with its pictures.
+    /// Returns the material, with its pictures as a ball has them, or a model.
     pub(super) fn material(
         &self,
         at: Range<usize>,
         source: &Source,
-        reader: &mut dyn SceneReader,
+        is_ball: bool,
+        reader: &mut dyn PictureReader,
     ) -> Result<Material, SceneFileError> {
         let wrong = |message: &str| source.error(Some(at.clone()), message);
+        if self.normal_scale.is_some() && self.normal_texture.is_none() {
+            return Err(wrong("normal_scale is for a normal_texture; name one"));
+        }
+        if self.wrap.is_some() && self.pictures().all(Option::is_none) {
+            return Err(wrong("wrap is for pictures; name one, as in texture = \"map.png\""));
+        }
         let usual = match self.kind {
             Some(Kind::Mirror) => Material::MIRROR,
             Some(Kind::Matte) => Material::MATTE,
@@ -33,7 +40,7 @@ impl MaterialEntry {
         };
         let finish = match usual.paintable() {
             Some(found) if self.is_painted() || usual.finish.is_some() => {
-                Some(Arc::new(self.finish(found, source, reader)?))
+                Some(Arc::new(self.finish(found, source, is_ball, reader)?))
             }
             None if self.is_painted() => {
                 let message = "color, textures, metallic, roughness and specular are for the kinds matte and metallic";
@@ -74,7 +81,7 @@ impl MaterialEntry {
 
     /// Returns whether there is a number or a picture of metallic-roughness.
     fn is_painted(&self) -> bool {
-        let numbers = [self.metallic, self.roughness, self.specular, self.normal_scale].iter().any(Option::is_some);
+        let numbers = [self.metallic, self.roughness, self.specular].iter().any(Option::is_some);
         let colours = self.color.is_some() || self.emissive.is_some();
         numbers || colours || self.pictures().any(|picture| picture.is_some())
     }
@@ -83,8 +90,15 @@ impl MaterialEntry {
         [&self.texture, &self.metal_texture, &self.emissive_texture, &self.normal_texture].into_iter()
     }
 
-    fn finish(&self, usual: Finish, source: &Source, reader: &mut dyn SceneReader) -> Result<Finish, SceneFileError> {
-        let wrap = [self.wrap.wrap(); 2];
+    fn finish(
+        &self,
+        usual: Finish,
+        source: &Source,
+        is_ball: bool,
+        reader: &mut dyn PictureReader,
+    ) -> Result<Finish, SceneFileError> {
+        let across = self.wrap.unwrap_or_default().wrap();
+        let wrap = if is_ball { Sphere::wrap(across) } else { [across; 2] };
         let mut picture = |path: &Option<Spanned<PathBuf>>, kind: PictureKind| {
             let Some(path) = path else { return Ok(None) };
             let found = reader.picture(PictureSource::File(&source.folder().join(path.get_ref())), kind);

@@ -8,11 +8,12 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use cosmorama::raster::{Image, Rgba};
 use cosmorama::sphere::{Angle, Orientation};
 use cosmorama_spec::did_you_mean;
 use toml::Spanned;
 
-use crate::material::{Material, PictureReader};
+use crate::material::{Material, PictureKind, PictureReader, PictureSource};
 use crate::model::{ModelSettings, Placing};
 use crate::scene::{Object, Scene};
 use crate::shade::Proxy;
@@ -106,6 +107,18 @@ pub struct FileCamera {
     pub size: Option<Located>,
 }
 
+/// Materials that are read, by their names, and whether a ball has them.
+type Materials = BTreeMap<(String, bool), Material>;
+
+/// A reader that reads nothing.
+struct Unread;
+
+impl PictureReader for Unread {
+    fn picture(&mut self, _: PictureSource, _: PictureKind) -> Result<Image<Rgba>, String> {
+        Ok(Image::filled(1, 1, Rgba::BLACK))
+    }
+}
+
 /// Most things of a file.
 const MOST_OBJECTS: usize = 100_000;
 
@@ -174,11 +187,13 @@ impl SceneFile {
     /// # Errors
     /// When a material is out of range, or a file cannot be read.
     pub fn scene(&self, reader: &mut dyn SceneReader) -> Result<Scene, SceneFileError> {
-        let materials = self.materials(reader)?;
+        let mut materials = Materials::new();
         let mut scene = Scene::default();
         for (index, entry) in self.written.object.iter().enumerate() {
             let entry = entry.get_ref();
-            let material = entry.material.as_ref().and_then(|name| materials.get(name.get_ref().as_str())).cloned();
+            let named = |name: &Spanned<String>| (name.get_ref().clone(), entry.file.is_none());
+            let wanted = entry.material.as_ref().map(named);
+            let material = wanted.map(|wanted| self.material(wanted, &mut materials, reader)).transpose()?;
             let number = |wanted: &Spanned<String>| self.written.world.keys().position(|name| name == wanted.get_ref());
             let world = entry.world.as_ref().and_then(number).map_or(0, |index| index + 1);
             let mut object = match &entry.file {
@@ -191,6 +206,7 @@ impl SceneFile {
             object.parts.iter_mut().for_each(|part| part.world = world);
             scene.objects.push(object);
         }
+        self.check_unused(&materials)?;
         Ok(scene)
     }
 
@@ -211,13 +227,33 @@ impl SceneFile {
         Ok(object)
     }
 
-    /// Returns the materials that things have, by name.
-    fn materials(&self, reader: &mut dyn SceneReader) -> Result<BTreeMap<&str, Material>, SceneFileError> {
-        let mut materials: BTreeMap<&str, Material> = USUAL.into_iter().collect();
-        for (name, entry) in &self.written.material {
-            materials.insert(name, entry.get_ref().material(entry.span(), &self.source, reader)?);
+    /// Returns a material by its name, as a ball has it, or a model. Each is read once.
+    fn material(
+        &self,
+        wanted: (String, bool),
+        made: &mut Materials,
+        reader: &mut dyn SceneReader,
+    ) -> Result<Material, SceneFileError> {
+        if let Some(made) = made.get(&wanted) {
+            return Ok(made.clone());
         }
-        Ok(materials)
+        let (name, is_ball) = &wanted;
+        let usual = || USUAL.into_iter().find(|(usual, _)| usual == name).map(|(_, material)| material);
+        let material = match self.written.material.get(name) {
+            Some(entry) => entry.get_ref().material(entry.span(), &self.source, *is_ball, reader)?,
+            None => usual().unwrap_or_default(),
+        };
+        made.insert(wanted, material.clone());
+        Ok(material)
+    }
+
+    /// Checks the materials that no thing has. Their pictures are not read.
+    fn check_unused(&self, used: &Materials) -> Result<(), SceneFileError> {
+        let is_used = |name: &String| [false, true].iter().any(|ball| used.contains_key(&(name.clone(), *ball)));
+        for (_, entry) in self.written.material.iter().filter(|(name, _)| !is_used(name)) {
+            entry.get_ref().material(entry.span(), &self.source, false, &mut Unread)?;
+        }
+        Ok(())
     }
 
     /// Checks that what an object names is there, and that its numbers are some.
@@ -287,9 +323,6 @@ impl ObjectEntry {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cosmorama::raster::{Image, Rgba};
-
-    use crate::material::{PictureKind, PictureSource};
     use crate::scene::Part;
     use glam::DVec3;
 
@@ -378,6 +411,9 @@ world = "room"
             ("shape = \"sphere\"", "", &["line 16", "a file = \"model.obj\""]),
             ("scale = 0.5", "crease = 40", &["crease", "of a model's file"]),
             ("[camera]", "[camera", &["line 2"]),
+            ("metallic = 1", "normal_scale = 2", &["line 11", "normal_texture"]),
+            ("metallic = 1", "wrap = 'mirror'", &["line 11", "wrap is for pictures"]),
+            ("\n[material.gold]", "\n[material.unused]\nmetallic = 3\n[material.gold]", &["3 is outside 0 to 1"]),
         ] {
             let error = error(from, to);
             assert!(error.starts_with("a.toml") && says.iter().all(|part| error.contains(part)), "{to}: {error}");

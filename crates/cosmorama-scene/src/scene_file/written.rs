@@ -64,8 +64,7 @@ pub(super) struct MaterialEntry {
     pub(super) emissive_texture: Option<Spanned<PathBuf>>,
     pub(super) normal_texture: Option<Spanned<PathBuf>>,
     pub(super) normal_scale: Option<f64>,
-    #[serde(default)]
-    pub(super) wrap: WrapName,
+    pub(super) wrap: Option<WrapName>,
 }
 
 /// Name of a material's kind.

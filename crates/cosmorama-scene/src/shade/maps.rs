@@ -24,6 +24,8 @@ pub struct LightMaps {
     pub(super) exact: Vec<(f64, LightMap)>,
     pub(super) chain: Vec<(f64, LightMap)>,
     pub(super) cube: Option<LightMap>,
+    /// Whether some of the world is reflected as it is.
+    pub(super) mirror: bool,
     /// Albedo of microfacets, if there is metallic-roughness.
     pub(super) albedo: Option<AlbedoTable>,
 }
@@ -58,7 +60,8 @@ impl LightMaps {
         light.check(world)?;
         let cube = if alphas.mirror { LightMap::cube(&sky) } else { None };
         let albedo = materials().any(|material| material.finish.is_some()).then(AlbedoTable::new);
-        let empty = Self { diffuse: None, exact: Vec::new(), chain: Vec::new(), cube, albedo };
+        let (exact, chain, mirror) = (Vec::new(), Vec::new(), alphas.mirror);
+        let empty = Self { diffuse: None, exact, chain, cube, mirror, albedo };
         if !is_matt && alphas.exact.is_empty() && alphas.chain.is_empty() {
             return Ok(empty);
         }

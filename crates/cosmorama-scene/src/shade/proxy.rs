@@ -1,10 +1,9 @@
 use std::str::FromStr;
 
 use cosmorama::camera::Footprint;
-use cosmorama::sphere::Direction;
 use glam::DVec3;
 
-use crate::ray::Ray;
+use crate::ray::{Ray, footprint_of};
 use crate::shape::Sphere;
 
 /// Walls that stand for a near world: a ray is met with them, and the world is looked up in the direction of that place
@@ -53,7 +52,7 @@ impl Proxy {
         let met = ray.met(distance, normal);
         let offset = met.origin - self.centre;
         let away = offset.length();
-        Footprint::new(Direction::from_unit(offset / away), met.dx.origin / away, met.dy.origin / away)
+        footprint_of(offset / away, [met.dx.origin / away, met.dy.origin / away])
     }
 
     /// Returns the distance of the wall that a ray meets from inside, and the wall's normal.
@@ -82,6 +81,8 @@ impl Proxy {
 
 #[cfg(test)]
 mod tests {
+    use cosmorama::sphere::Direction;
+
     use super::*;
     use crate::ray::RayChange;
 

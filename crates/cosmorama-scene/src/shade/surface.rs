@@ -1,6 +1,6 @@
 use cosmorama::filter::Texture;
 use cosmorama::raster::Rgba;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::albedo_table::AlbedoTable;
 use crate::material::{Finish, Material, Paint};
@@ -98,19 +98,96 @@ fn looked_up(map: Option<&Texture>, chart: Option<&Chart>) -> Rgba {
     map.zip(chart).map_or(Rgba([1.0; 4]), |(map, chart)| chart.average(map))
 }
 
+/// Returns the colour at a place. What the picture says of transparency does not count.
 fn painted(paint: &Paint, chart: Option<&Chart>) -> DVec3 {
-    let map = looked_up(paint.map.as_deref(), chart).unpremultiplied().map(f64::from);
-    DVec3::from_array(paint.colour) * DVec3::from_array(map)
+    let Rgba([red, green, blue, _]) = looked_up(paint.map.as_deref(), chart);
+    DVec3::from_array(paint.colour) * DVec3::new(red.into(), green.into(), blue.into())
 }
 
-/// Returns the mean normal of the dents under a pixel, and the part of α² that they make within it: a mean of unit
-/// vectors is shorter than one by half of their variance (M. Toksvig, *Mipmapping normal maps*, 2005).
+/// Returns the mean normal of the dents under a pixel, with its change from pixel to pixel, and the part of α² that dents make
+/// within it.
 fn dented(finish: &Finish, normal: &Normal, chart: Option<&Chart>) -> (Normal, f64) {
     let Some((map, chart)) = finish.normal_map.as_ref().zip(chart) else { return (*normal, 0.0) };
-    let Rgba([x, y, z, _]) = chart.average(map.map());
-    let mean = DVec3::new(x.into(), y.into(), z.into());
-    let sideways = (chart.tangent * mean.x + chart.bitangent * mean.y) * map.scale;
-    let unit = (sideways + normal.unit * mean.z).try_normalize().unwrap_or(normal.unit);
-    let variance = 2.0 * (1.0 - mean.length()).max(0.0) * map.scale * map.scale;
-    (Normal { unit, ..*normal }, variance)
+    let mean = |chart: &Chart| {
+        let Rgba([x, y, z, _]) = chart.average(map.map());
+        DVec3::new(x.into(), y.into(), z.into())
+    };
+    let placed = |dent: DVec3| (chart.tangent * dent.x + chart.bitangent * dent.y) * map.scale + normal.unit * dent.z;
+    let sum = placed(mean(chart));
+    let Some(unit) = sum.try_normalize() else { return (*normal, 0.0) };
+    let change = |surface: DVec3, step: DVec2| {
+        let turned = placed(mean(&chart.moved(0.5 * step)) - mean(&chart.moved(-0.5 * step))) / sum.length();
+        surface + turned - unit * unit.dot(surface + turned)
+    };
+    let dented = Normal { unit, dx: change(normal.dx, DVec2::X), dy: change(normal.dy, DVec2::Y) };
+    (dented, unseen(map.map(), chart, mean) * map.scale * map.scale)
+}
+
+/// Returns the variance of the normals under a pixel: a mean of unit vectors is shorter than one by half of that (M. Toksvig,
+/// *Mipmapping normal maps*, 2005). Between texels the means are shorter, too, though the surface is smooth there: that does not
+/// count, by the part of the pixel that a texel is.
+fn unseen(map: &Texture, chart: &Chart, mean: impl Fn(&Chart) -> DVec3) -> f64 {
+    let variance = |chart: &Chart| 2.0 * (1.0 - mean(chart).length());
+    let texels = chart.texels(map);
+    if texels <= 1.0 {
+        return 0.0;
+    }
+    (variance(chart) - variance(&chart.scaled(texels.recip())) / (texels * texels)).max(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use cosmorama::filter::Wrap;
+    use cosmorama::raster::Image;
+
+    use super::*;
+    use crate::material::NormalMap;
+
+    const SIDE: usize = 64;
+
+    /// Returns a finish whose normals lean along u by an angle at each column, over 64 texels a unit.
+    fn leaning(angle: impl Fn(usize) -> f64) -> Finish {
+        let code = |part: f64| (0.5 + 0.5 * part) as f32;
+        let texel = |i: usize, _| Rgba::opaque(code(angle(i).sin()), code(0.0), code(angle(i).cos()));
+        let map = NormalMap::new(&Image::from_fn(SIDE, SIDE, texel), [Wrap::Repeat; 2], 1.0);
+        Finish { normal_map: Some(map), ..Finish::default() }
+    }
+
+    /// Returns the chart of a pixel of so many texels.
+    fn chart(at: f64, texels: f64) -> Chart {
+        let step = texels / SIDE as f64;
+        let (dx, dy) = (DVec2::X * step, DVec2::Y * step);
+        let (tangent, bitangent) = (DVec3::X, DVec3::Y);
+        Chart { at: DVec2::new(at, 0.4), dx, dy, nearing: DVec2::ZERO, tangent, bitangent }
+    }
+
+    const FLAT: Normal = Normal { unit: DVec3::Z, dx: DVec3::ZERO, dy: DVec3::ZERO };
+
+    #[test]
+    fn magnified_dents_are_smooth_and_bend_what_is_seen() {
+        // Waves whose normals turn by 10° from texel to texel at most.
+        let angle = |i: usize| 0.9 * (i as f64 * std::f64::consts::TAU / 32.0).sin();
+        let finish = leaning(angle);
+        for k in 0..40 {
+            let at = 0.1 + 0.02 * f64::from(k);
+            let (found, alpha) = dented(&finish, &FLAT, Some(&chart(at, 0.05)));
+            assert!(alpha == 0.0, "{at}: {alpha}");
+            let [left, right] = [-1.0, 1.0].map(|side| {
+                let moved = chart(at + side * 0.025 / SIDE as f64, 0.05);
+                dented(&finish, &FLAT, Some(&moved)).0.unit
+            });
+            assert!((found.dx - (right - left)).length() < 1e-4, "{at}: {} for {}", found.dx, right - left);
+            assert!(found.dy.length() < 6e-4, "{at}: {}", found.dy);
+        }
+    }
+
+    #[test]
+    fn dents_within_a_pixel_are_rough() {
+        let zigzag = leaning(|i| if i % 2 == 0 { 0.2 } else { -0.2 });
+        let (found, alpha) = dented(&zigzag, &FLAT, Some(&chart(0.3, 8.0)));
+        // The variance of two normals 0.4 apart, but for the part that a texel is of the pixel.
+        let expected = 2.0 * (1.0 - 0.2f64.cos());
+        assert!(alpha > 0.95 * expected && alpha < 1.05 * expected, "{alpha} for {expected}");
+        assert!((found.unit - DVec3::Z).length() < 0.02 && found.dx.length() < 0.05, "{found:?}");
+    }
 }

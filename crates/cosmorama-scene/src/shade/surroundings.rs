@@ -68,11 +68,13 @@ impl<'a> Surroundings<'a> {
         let side_by_side = EwaPyramid { kernel: SIDE_BY_SIDE, anti_ringing: false };
         let wide = wide.map(|cube| side_by_side.prepare(&cube.world, &cube.light)).transpose()?;
         let parts = match filter.kind {
-            FilterKind::Ewa | FilterKind::EwaPyramid => {
+            FilterKind::Ewa | FilterKind::EwaPyramid if maps.mirror => {
                 let settings = FilterSettings { kernel: SIDE_BY_SIDE, anti_ringing: false, ..filter };
                 Some(settings.prepare(sky.world, sky.light)?)
             }
-            FilterKind::Point
+            FilterKind::Ewa
+            | FilterKind::EwaPyramid
+            | FilterKind::Point
             | FilterKind::Bilinear
             | FilterKind::Labels(_)
             | FilterKind::Classic(_)

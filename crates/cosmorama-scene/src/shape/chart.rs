@@ -25,6 +25,23 @@ impl Chart {
         Self { tangent: -self.tangent, bitangent: -self.bitangent, ..self }
     }
 
+    /// Returns the chart of the pixel at an offset of some pixels to the right, and down.
+    pub(crate) fn moved(self, offset: DVec2) -> Self {
+        let step = (self.dx * offset.x + self.dy * offset.y) / (1.0 + self.nearing.dot(offset));
+        Self { at: self.at + step, ..self }
+    }
+
+    /// Returns the chart of the middle part of the pixel.
+    pub(crate) fn scaled(self, part: f64) -> Self {
+        Self { dx: self.dx * part, dy: self.dy * part, nearing: self.nearing * part, ..self }
+    }
+
+    /// Returns the number of a picture's texels along the pixel's longer side.
+    pub(crate) fn texels(&self, picture: &Texture) -> f64 {
+        let size = DVec2::new(picture.picture().width() as f64, picture.picture().height() as f64);
+        (self.dx * size).length().max((self.dy * size).length())
+    }
+
     /// Averages a picture under the pixel.
     pub(crate) fn average(&self, picture: &Texture) -> Rgba {
         let jacobian = DMat2::from_cols(self.dx, self.dy);

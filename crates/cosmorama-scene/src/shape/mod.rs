@@ -77,7 +77,7 @@ impl Shape {
         let beyond = AWAY * self.ball().radius;
         match self {
             Self::Sphere(sphere) => sphere.meet(ray, beyond).is_some(),
-            Self::Mesh(mesh) => mesh.meet(ray, beyond).is_some(),
+            Self::Mesh(mesh) => mesh.is_met(ray, beyond),
         }
     }
 

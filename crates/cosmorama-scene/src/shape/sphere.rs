@@ -1,5 +1,6 @@
 use std::f64::consts::{PI, TAU};
 
+use cosmorama::filter::Wrap;
 use cosmorama::sphere::Orientation;
 use glam::{DVec2, DVec3};
 
@@ -46,6 +47,11 @@ impl Sphere {
     /// Returns a ball.
     pub const fn new(centre: DVec3, radius: f64) -> Self {
         Self { centre, radius, orientation: Orientation::IDENTITY }
+    }
+
+    /// Returns the way in which pictures go on around a ball, by that across: they end at the poles.
+    pub const fn wrap(across: Wrap) -> [Wrap; 2] {
+        [across, Wrap::Clamp]
     }
 
     /// Returns the distance at which a ray meets the ball, beyond a distance; `None` if it misses.

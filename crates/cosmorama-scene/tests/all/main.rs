@@ -6,4 +6,5 @@ mod models;
 mod occlusion;
 mod spheres;
 mod textures;
+mod variants;
 mod worlds;

@@ -7,15 +7,15 @@ use cosmorama::camera::PixelPoint;
 use cosmorama::filter::{FilterKind, FilterSettings, Texture, Wrap};
 use cosmorama::prelude::*;
 use cosmorama_scene::{
-    Background, Camera, Face, Finish, LightMaps, Material, Mesh, MeshError, NormalMap, Normals, Object, Orthographic,
-    Paint, Part, Place, Scene, SceneError, Shape, Sky, Sphere, Surroundings, picture,
+    Background, Camera, Face, Finish, Glass, LightMaps, Material, Mesh, MeshError, NormalMap, Normals, Object,
+    Orthographic, Paint, Part, Place, Scene, SceneError, Shape, Sky, Sphere, Surroundings, picture,
 };
 use glam::{DMat3, DVec2, DVec3};
 
 const MADE: Normals = Normals { kept: true, crease: Angle::from_degrees(40.0) };
 
 /// A smooth sky: light by direction.
-fn light(direction: DVec3) -> [f32; 3] {
+pub(crate) fn light(direction: DVec3) -> [f32; 3] {
     let wave =
         |a: f64, b: f64, c: f64| (0.5 + 0.35 * (a * direction.x + b * direction.y + c * direction.z).sin()) as f32;
     [wave(5.0, 1.5, -1.0), wave(1.0, 6.0, 2.0), wave(-2.0, 3.0, 7.0)]
@@ -78,12 +78,12 @@ fn lens(eye: [f64; 3], degrees: f64, size: (usize, usize)) -> Camera {
     Camera::lens(place, Placement::new(model).view(size.0, size.1).unwrap()).unwrap()
 }
 
-fn parallel(height: f64, size: [usize; 2]) -> Camera {
+pub(crate) fn parallel(height: f64, size: [usize; 2]) -> Camera {
     let place = Place { eye: DVec3::Z * 9.0, target: DVec3::ZERO };
     Camera::Orthographic(Orthographic::new(place, height, size).unwrap())
 }
 
-fn made(objects: Vec<Object>, camera: &Camera) -> Image<Rgba> {
+pub(crate) fn made(objects: Vec<Object>, camera: &Camera) -> Image<Rgba> {
     let (world, light) = sky();
     let scene = Scene { objects };
     let sky = Sky::new(&world, &light);
@@ -104,12 +104,12 @@ fn decibels(a: &Image<Rgba>, b: &Image<Rgba>) -> f64 {
 fn a_ball_of_triangles_looks_as_the_ball_does() {
     let sphere = Sphere::new(DVec3::ZERO, 1.0);
     let (perspective, parallel) = (lens([0.4, 1.0, 4.0], 34.0, (160, 120)), parallel(2.4, [120, 120]));
-    for (camera, material) in [(&perspective, Material::MIRROR), (&parallel, Material::MATTE)] {
+    for (camera, material, least) in [(&perspective, Material::MIRROR, 53.0), (&parallel, Material::MATTE, 55.0)] {
         let found = made(vec![object(ball(256), material.clone())], camera);
         let expected = made(vec![Object::sphere(sphere, material.clone())], camera);
         let decibels = decibels(&found, &expected);
         println!("{decibels:.1} dB");
-        assert!(decibels > 50.0, "{material:?}: {decibels:.1} dB");
+        assert!(decibels > least, "{material:?}: {decibels:.1} dB");
     }
 }
 
@@ -120,7 +120,7 @@ fn glass_of_triangles_looks_as_a_ball_of_glass_does() {
     let expected = made(vec![Object::sphere(Sphere::new(DVec3::ZERO, 1.0), Material::GLASS)], &camera);
     let decibels = decibels(&found, &expected);
     println!("{decibels:.1} dB");
-    assert!(decibels > 40.0, "{decibels:.1} dB");
+    assert!(decibels > 47.0, "{decibels:.1} dB");
 }
 
 #[test]
@@ -252,6 +252,76 @@ fn glass_with_a_hole_is_refused() {
     let refused = LightMaps::of(&scene, 0, Sky::new(&world, &light)).unwrap_err();
     let SceneError::Open(edge) = refused else { panic!("{refused}") };
     assert!(edge.iter().flatten().all(|part| part.abs() == 1.0), "{edge:?}");
+    // A triangle that is turned round bounds nothing, either.
+    let mut turned = cube(DMat3::IDENTITY);
+    turned[0].corners.swap(1, 2);
+    assert!(Mesh::new(turned, MADE).unwrap().hole().is_some());
+}
+
+/// A ring around the y axis, of radii 1 and 0.4.
+fn torus(columns: usize, rows: usize) -> Vec<Face> {
+    let at = |i: usize, j: usize| {
+        let [around, across] = [(i, columns), (j, rows)].map(|(k, count)| TAU * (k % count) as f64 / count as f64);
+        let radius = 1.0 + 0.4 * across.cos();
+        DVec3::new(radius * around.sin(), 0.4 * across.sin(), radius * around.cos())
+    };
+    let cells = (0..rows).flat_map(|j| (0..columns).map(move |i| (i, j)));
+    let faces = cells.flat_map(|(i, j)| {
+        let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+        [face([a, b, c]), face([a, c, d])]
+    });
+    faces.collect()
+}
+
+/// Glass of many surfaces.
+fn deep_glass() -> Material {
+    let glass = Material::GLASS.glass.map(|glass| Glass { surfaces: 8, ..glass });
+    Material { glass, ..Material::GLASS }
+}
+
+#[test]
+fn a_ring_of_glass_loses_no_light() {
+    let (world, light) = World::from_panorama(Image::filled(64, 32, Rgba::opaque(0.25, 0.5, 1.0))).unwrap();
+    let sky = Sky::new(&world, &light);
+    for columns in [24, 96] {
+        let scene = Scene { objects: vec![object(torus(columns, columns / 2), deep_glass())] };
+        let maps = LightMaps::of(&scene, 0, sky).unwrap();
+        let surroundings = Surroundings::new(sky, &maps, FilterSettings::DEFAULT).unwrap();
+        let camera = lens([1.0, 2.0, 3.5], 44.0, (48, 48));
+        let image = picture(&scene, &camera, &[surroundings], Background::Colour(Rgba::TRANSPARENT)).unwrap();
+        for Rgba([red, _, blue, alpha]) in image.pixels() {
+            assert!((red - 0.25 * alpha).abs() < 1e-4 && (blue - alpha).abs() < 1e-4, "{red}, {blue} of {alpha}");
+        }
+    }
+}
+
+/// Few triangles with smooth normals refract nearly as many do.
+#[test]
+fn a_coarse_ring_of_glass_is_nearly_a_fine_one() {
+    let camera = lens([1.0, 2.0, 3.5], 44.0, (64, 64));
+    let [coarse, fine] =
+        [64, 256].map(|columns| made(vec![object(torus(columns, columns / 2), deep_glass())], &camera));
+    let decibels = decibels(&coarse, &fine);
+    println!("{decibels:.1} dB");
+    assert!(decibels > 43.0, "{decibels:.1} dB");
+}
+
+#[test]
+fn a_ball_looks_the_same_beside_a_mesh() {
+    let camera = lens([0.0, 0.0, 6.0], 40.0, (96, 72));
+    let ball = || Object::sphere(Sphere::new(DVec3::new(-0.4, 0.1, 0.0), 1.0), Material::MIRROR);
+    let post = cube(DMat3::from_diagonal(DVec3::new(0.1, 2.0, 0.1)));
+    let post =
+        post.into_iter().map(|face| Face { corners: face.corners.map(|corner| corner + DVec3::X * 0.95), ..face });
+    let (alone, beside) =
+        (made(vec![ball()], &camera), made(vec![ball(), object(post.collect(), Material::MATTE)], &camera));
+    // The post begins three pixels beside the ball.
+    let left = (0..96).find(|i| beside.get(*i, 2).alpha() > 0.0).unwrap();
+    let is_ball = |i: usize| (0..72).any(|j| alone.get(i, j).alpha() > 0.0);
+    assert!(!is_ball(left - 2) && is_ball(left - 7), "{left}");
+    for (i, j) in (0..left - 1).flat_map(|i| (0..72).map(move |j| (i, j))) {
+        assert_eq!(alone.get(i, j), beside.get(i, j), "{i}, {j}");
+    }
 }
 
 /// A square of side 2 about the origin that faces +Z, with a picture whose top is at +Y.

@@ -7,10 +7,11 @@ use cosmorama::filter::{Texture, Wrap};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
 use cosmorama_scene::{Finish, Material, Model, ModelSettings, PictureKind, PictureReader, PictureSource, Shape};
 
-const SETTINGS: ModelSettings = ModelSettings { crease: None, material: None, most: 1_000_000, placing: None };
+pub(crate) const SETTINGS: ModelSettings =
+    ModelSettings { crease: None, material: None, most: 1_000_000, placing: None };
 
 /// Reads pictures as the program does.
-struct Files;
+pub(crate) struct Files;
 
 impl PictureReader for Files {
     fn picture(&mut self, source: PictureSource, kind: PictureKind) -> Result<Image<Rgba>, String> {
@@ -20,25 +21,26 @@ impl PictureReader for Files {
             PictureSource::Bytes(bytes) => cosmorama_io::read_from(std::io::Cursor::new(bytes), "inside", &limits),
         };
         let file = file.map_err(|error| error.to_string())?;
-        Ok(if kind == PictureKind::Colour { file.to_light() } else { file.image.to_light(&Transfer::Linear) })
+        let transfer = if kind == PictureKind::Colour { file.transfer() } else { Transfer::Linear };
+        Ok(file.image.without_alpha().to_light(&transfer))
     }
 }
 
 /// A file that is removed after the test.
-struct File(PathBuf);
+pub(crate) struct File(pub(crate) PathBuf);
 
 impl File {
-    fn new(name: &str, text: &str) -> Self {
+    pub(crate) fn new(name: &str, text: &str) -> Self {
         Self::write(name, text.as_bytes())
     }
 
-    fn write(name: &str, bytes: &[u8]) -> Self {
+    pub(crate) fn write(name: &str, bytes: &[u8]) -> Self {
         let path = std::env::temp_dir().join(format!("cosmorama-{}-{name}", std::process::id()));
         std::fs::write(&path, bytes).unwrap();
         Self(path)
     }
 
-    fn read(&self) -> Result<Model, String> {
+    pub(crate) fn read(&self) -> Result<Model, String> {
         Model::read(&self.0, &SETTINGS, &mut Files).map_err(|error| error.to_string())
     }
 }
@@ -99,6 +101,29 @@ fn more_triangles_than_fit_are_refused_before_they_are_made() {
     let file = File::new("large.obj", &format!("{SQUARE}{}", "f 1 2 3 4\n".repeat(600_000)));
     let error = file.read().unwrap_err();
     assert!(error.contains("1200000 triangles"), "{error}");
+}
+
+#[test]
+fn files_longer_than_memory_are_refused_before_they_are_read() {
+    let few = ModelSettings { most: 10, ..SETTINGS };
+    let long = File::new("long.obj", &format!("{SQUARE}f 1 2 3\n#{}\n", "-".repeat(20_000)));
+    let points = File::new("points.obj", &format!("{SQUARE}{}f 1 2 3\n", "v 0 0 0\n".repeat(100)));
+    let json =
+        Gltf::new("json", &SQUARES.replacen(r#""asset""#, &format!(r#""extras": "{}", "asset""#, "-".repeat(600)), 1));
+    for (path, says) in [(&long.0, "memory for 15000"), (&points.0, "memory for 10"), (&json.file.0, "memory for 468")]
+    {
+        let error = Model::read(path, &few, &mut Files).unwrap_err().to_string();
+        assert!(error.contains(says), "{error}");
+    }
+}
+
+#[test]
+fn lines_that_are_not_read_are_told() {
+    let text = format!("{SQUARE}v 0 0 1 0.5 0.5 0.5\ns 1\nl 1 2\n#comment\ncstype bezier\nf 1 2 3\n");
+    let notes = File::new("lines.obj", &text).read().unwrap().notes.join("; ");
+    assert!(notes.contains("not read: cstype, l, s, colours of vertices"), "{notes}");
+    let smooth = File::new("smooth.obj", &format!("{SQUARE}s 1\nf 1//1 2//1 3//1\n")).read().unwrap();
+    assert!(smooth.notes.is_empty(), "{:?}", smooth.notes);
 }
 
 /// Four corners of a square of side 1, as numbers of a buffer, and the indices of a strip.
@@ -189,13 +214,18 @@ fn faults_of_gltf_files_are_named() {
             "camera 0 does not have the numbers",
         ),
         (r#""byteLength": 52"#, r#""byteLength": 9000000000000"#, "memory allows"),
+        ("NAME%2Ebin", "/dev/stdin", "buffer 0 is at '/dev/stdin'"),
+        ("NAME%2Ebin", ".", "which is no file"),
     ];
     for (k, (from, to, says)) in cases.into_iter().enumerate() {
         let error = Gltf::new(&format!("fault{k}"), &SQUARES.replacen(from, to, 1)).file.read().unwrap_err();
         assert!(error.contains(says) && error.contains(".gltf"), "{to}: {error}");
     }
-    let error = File::new("empty.glb", "").read().unwrap_err();
-    assert!(error.contains("empty.glb"), "{error}");
+    let short = [&b"glTF"[..], &2u32.to_le_bytes(), &0u32.to_le_bytes()].concat();
+    for (bytes, says) in [(&[][..], "empty.glb"), (&short[..6], "empty.glb"), (&short, "says that it has 0 bytes")] {
+        let error = File::write("empty.glb", bytes).read().unwrap_err();
+        assert!(error.contains(says), "{error}");
+    }
 }
 
 /// Returns what a part is made of.
@@ -251,7 +281,7 @@ fn materials_of_gltf_are_read_by_their_numbers() {
 }
 
 /// A picture of two texels, red on the left and green on the right, or grey in both, as PNG.
-fn two_texels(name: &str, is_grey: bool) -> File {
+pub(crate) fn two_texels(name: &str, is_grey: bool) -> File {
     let colour =
         |i: usize| if is_grey { Rgba::opaque(0.5, 0.5, 0.5) } else { Rgba::opaque(1.0 - i as f32, i as f32, 0.0) };
     let picture = Image::from_fn(2, 1, |i, _| colour(i));
@@ -262,8 +292,12 @@ fn two_texels(name: &str, is_grey: bool) -> File {
 }
 
 /// The name of a file without its folder.
-fn name_of(file: &File) -> String {
+pub(crate) fn name_of(file: &File) -> String {
     file.0.file_name().unwrap().to_string_lossy().into_owned()
+}
+
+fn found_material(model: &Model, part: usize) -> Material {
+    model.object.parts[part].material.clone()
 }
 
 fn first_texel(map: &Option<std::sync::Arc<Texture>>) -> [f32; 4] {
@@ -289,6 +323,13 @@ fn pictures_of_obj_materials_are_read() {
     assert_eq!(found.normal_map.as_ref().map(|map| map.scale), Some(0.25));
     let notes = model.notes.join("; ");
     assert!(notes.contains("not read: map_Ke"), "scales of pictures are told: {notes}");
+    // A face without texture coordinates shows no picture.
+    let bare = File::new("bare.obj", &format!("{text}f 1 2 3\n")).read().unwrap();
+    assert!(bare.notes.join("; ").contains("pictures are not shown on all of: a"), "{:?}", bare.notes);
+    let plain = File::new("plain.obj", &format!("{SQUARE}f 1 2 3\n"));
+    let material = Some(found_material(&model, 0));
+    let error = Model::read(&plain.0, &ModelSettings { material, ..SETTINGS }, &mut Files).unwrap_err().to_string();
+    assert!(error.contains("no texture coordinates"), "{error}");
     // Nobody asks for the pictures of materials that no part has.
     let error = File::new("lost.obj", &format!("{text}usemtl b\nf 1 2 3\n")).read().unwrap_err();
     assert!(error.contains("line 13: material b: ") && error.contains("gone.png"), "{error}");
@@ -334,7 +375,7 @@ fn pictures_of_gltf_materials_are_read() {
     assert!(Model::read(&lost.file.0, &ModelSettings { material, ..SETTINGS }, &mut Files).is_ok());
 }
 
-fn base64(bytes: &[u8]) -> String {
+pub(crate) fn base64(bytes: &[u8]) -> String {
     const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let group = |chunk: &[u8]| {
         let bits = (0..3).fold(0, |bits, k| bits << 8 | u32::from(chunk.get(k).copied().unwrap_or(0)));

@@ -5,8 +5,8 @@ use cosmorama::filter::{FilterKind, FilterSettings};
 use cosmorama::prelude::*;
 use cosmorama_io::{Limits, read};
 use cosmorama_scene::{
-    Background, Camera, LightMaps, Material, Object, Orthographic, Place, Scene, SceneError, Sky, Sphere, Surroundings,
-    picture,
+    Background, Camera, Finish, LightMaps, Material, Object, Orthographic, Paint, Place, Scene, SceneError, Sky,
+    Sphere, Surroundings, picture,
 };
 use glam::DVec3;
 
@@ -148,5 +148,55 @@ fn maps_of_another_scene_are_refused() {
             Background::World,
         );
         assert!(matches!(made, Err(SceneError::NoMap(_))), "{material:?}");
+    }
+}
+
+/// A ball that sends out light of one colour, and reflects none.
+fn lamp(centre: [f64; 3], radius: f64, colour: [f64; 3]) -> Object {
+    let dark = Finish { base: Paint::plain([0.0; 3]), specular: 0.0, ..Finish::default() };
+    let material = Material::of(Finish { emissive: Paint::plain(colour), ..dark });
+    Object::sphere(Sphere::new(centre.into(), radius), material)
+}
+
+#[test]
+fn the_nearer_of_two_surfaces_is_seen_even_where_balls_overlap() {
+    let (world, light) = World::from_panorama(Image::filled(64, 32, Rgba::BLACK)).unwrap();
+    let made = |objects: Vec<Object>| made(&Scene { objects }, Sky::new(&world, &light), FilterSettings::DEFAULT);
+    let whole = lamp([0.0; 3], 4.0, [1.0, 0.0, 0.0]);
+    // Wholly inside, with its centre nearer to the eye.
+    let hidden = lamp([0.5, 0.3, 2.0], 1.2, [0.0, 1.0, 0.0]);
+    assert_eq!(made(vec![hidden, whole.clone()]).pixels(), made(vec![whole.clone()]).pixels());
+    // A small ball that comes out of a large one, and whose centre is farther away.
+    let (centre, radius) = (DVec3::new(2.0, 0.0, -0.2), 4.1);
+    let image = made(vec![whole, lamp(centre.to_array(), radius, [0.0, 1.0, 0.0])]);
+    let height = |x: f64, y: f64, centre: DVec3, radius: f64| {
+        let square = radius * radius - (x - centre.x).powi(2) - (y - centre.y).powi(2);
+        // Away from its outline.
+        (square > 5.8).then(|| centre.z + square.sqrt())
+    };
+    let mut count = 0;
+    for (i, j) in (0..SIDE * SIDE).map(|k| (k % SIDE, k / SIDE)) {
+        let (x, y) = (i as f64 + 0.5 - 6.0, 6.0 - j as f64 - 0.5);
+        let Some((red, green)) = height(x, y, DVec3::ZERO, 4.0).zip(height(x, y, centre, radius)) else { continue };
+        if (red - green).abs() > 0.3 {
+            let expected = if red > green { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
+            assert_eq!(image.get(i, j).0[..3], expected, "{i}, {j}");
+            count += 1;
+        }
+    }
+    assert!(count > 10, "{count} pixels");
+}
+
+#[test]
+fn balls_that_are_none_are_refused() {
+    let (world, light) = World::from_panorama(Image::filled(64, 32, Rgba::BLACK)).unwrap();
+    let sky = Sky::new(&world, &light);
+    let maps = LightMaps::of(&Scene::sphere(Material::MIRROR), 0, sky).unwrap();
+    let surroundings = Surroundings::new(sky, &maps, FilterSettings::DEFAULT).unwrap();
+    for (centre, radius) in [([0.0; 3], 0.0), ([0.0; 3], -1.0), ([0.0; 3], f64::NAN), ([f64::INFINITY, 0.0, 0.0], 1.0)]
+    {
+        let scene = Scene { objects: vec![Object::sphere(Sphere::new(centre.into(), radius), Material::MIRROR)] };
+        let made = picture(&scene, &camera(), std::slice::from_ref(&surroundings), Background::World);
+        assert!(matches!(made, Err(SceneError::Ball { .. })), "{centre:?}, {radius}");
     }
 }

@@ -79,6 +79,31 @@ impl EncodedImage {
         Self { alpha_mode, ..self }
     }
 
+    /// Returns the image without its alpha. Colours that were multiplied by it are divided, except where it is 0.
+    #[must_use]
+    pub fn without_alpha(self) -> Self {
+        fn colours<S: Copy>(samples: &[S], count: usize, colour: impl Fn(S, S) -> S) -> Vec<S> {
+            let pixels = samples.chunks_exact(count).filter_map(<[S]>::split_last);
+            pixels.flat_map(|(alpha, colours)| colours.iter().map(|code| colour(*code, *alpha))).collect()
+        }
+        if !self.channels.has_alpha() {
+            return self;
+        }
+        let divided = |code: f32, alpha: f32| {
+            if self.alpha_mode == AlphaMode::Premultiplied && alpha > 0.0 { code / alpha } else { code }
+        };
+        let count = self.channels.count();
+        let samples = match &self.samples {
+            Samples::U8(samples) => Samples::U8(colours(samples, count, |code, _| code)),
+            Samples::U16(samples) => Samples::U16(colours(samples, count, |code, _| code)),
+            Samples::Half(samples) => Samples::Half(colours(samples, count, |code, alpha| {
+                f16::from_f32(divided(code.to_f32(), alpha.to_f32()))
+            })),
+            Samples::Float(samples) => Samples::Float(colours(samples, count, divided)),
+        };
+        Self { channels: self.channels.without_alpha(), samples, ..self }
+    }
+
     /// Returns whether every pixel has an alpha of one, or there is no alpha. An alpha of NaN is not opaque.
     pub fn is_opaque(&self) -> bool {
         fn all<S: Copy>(samples: &[S], count: usize, is_one: impl Fn(S) -> bool) -> bool {
@@ -168,6 +193,18 @@ impl EncodedImage {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn colours_outlive_their_alpha() {
+        let codes = Samples::U8(vec![10, 20, 30, 0, 40, 50, 60, 255]);
+        let image = EncodedImage::new(2, 1, Channels::Rgba, Depth::Eight, codes).unwrap().without_alpha();
+        assert_eq!((image.channels(), image.samples()), (Channels::Rgb, &Samples::U8(vec![10, 20, 30, 40, 50, 60])));
+        let glow = Samples::Float(vec![0.25, 0.5, 3.0, 0.0]);
+        let image = EncodedImage::new(2, 1, Channels::GreyAlpha, Depth::Float, glow).unwrap();
+        let premultiplied = image.clone().with_alpha_mode(AlphaMode::Premultiplied).without_alpha();
+        assert_eq!(premultiplied.samples(), &Samples::Float(vec![0.5, 3.0]));
+        assert_eq!(image.without_alpha().samples(), &Samples::Float(vec![0.25, 3.0]));
+    }
 
     #[test]
     fn one_pixel_tells_that_an_image_is_not_opaque() {

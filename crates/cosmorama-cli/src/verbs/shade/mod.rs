@@ -17,7 +17,7 @@ use anyhow::Result;
 use cosmorama::filter::FilterSettings;
 use cosmorama::raster::{Image, Rgba};
 use cosmorama_convert::{check_apart, threads};
-use cosmorama_scene::{Background, LightMaps, SceneError, Sky, Surroundings, picture};
+use cosmorama_scene::{Background, LightMaps, SceneError, Sky, Surroundings, backdrop, picture, picture_over};
 use cpu_time::ProcessTime;
 use serde_json::json;
 
@@ -64,10 +64,20 @@ pub(super) fn run(args: ShadeArgs, console: &mut Console) -> Result<ExitCode> {
         BackgroundName::World => Background::World,
         BackgroundName::Colour(colour) => Background::Colour(colour),
     };
+    // Things turn, and what is behind them stays.
+    let behind = |shot: &Shot| backdrop(&shot.camera, &surroundings[0], background);
+    let behind = || pool.install(|| shots.iter().map(behind).collect::<Vec<Image<Rgba>>>());
+    let behind = (frames.len() > 1).then(behind);
     let (mut shaded, mut written) = (clock.lap(), 0.0);
     for frame in &frames {
         surroundings.iter_mut().for_each(|world| world.turn_things(frame.turn));
-        let made = |shot: &Shot| picture(&things.scene, &shot.camera, &surroundings, background).map_err(wrong);
+        let made = |k: usize, shot: &Shot| {
+            let made = match &behind {
+                Some(behind) => picture_over(&things.scene, &shot.camera, &surroundings, behind[k].clone()),
+                None => picture(&things.scene, &shot.camera, &surroundings, background),
+            };
+            made.map_err(wrong)
+        };
         let image = pool.install(|| assembled(&shots, made))?;
         shaded += clock.lap();
         pool.install(|| output.write(&frame.path, image, lights[0].primaries, console))?;
@@ -105,14 +115,14 @@ impl Clock {
 }
 
 /// Makes a picture of one shot, or of several side by side.
-fn assembled(shots: &[Shot], make: impl Fn(&Shot) -> Result<Image<Rgba>>) -> Result<Image<Rgba>> {
-    if let [Shot { place: None, .. }] = shots {
-        return make(&shots[0]);
+fn assembled(shots: &[Shot], make: impl Fn(usize, &Shot) -> Result<Image<Rgba>>) -> Result<Image<Rgba>> {
+    if let [shot @ Shot { place: None, .. }] = shots {
+        return make(0, shot);
     }
     let size = shots.iter().find_map(|shot| shot.place.as_ref()).map_or((0, 0), |place| place.of);
     let mut sheet = Image::filled(size.0, size.1, Rgba::TRANSPARENT);
-    for shot in shots {
-        let (image, corner) = (make(shot)?, shot.place.as_ref().map_or((0, 0), |place| place.corner));
+    for (k, shot) in shots.iter().enumerate() {
+        let (image, corner) = (make(k, shot)?, shot.place.as_ref().map_or((0, 0), |place| place.corner));
         for j in 0..image.height() {
             let start = (corner.1 + j) * size.0 + corner.0;
             sheet.pixels_mut()[start..start + image.width()].copy_from_slice(image.row(j));

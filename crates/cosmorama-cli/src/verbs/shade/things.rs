@@ -10,7 +10,7 @@ use cosmorama_convert::{MemoryBudget, real_path};
 use cosmorama_io::{Limits, read, read_from};
 use cosmorama_scene::{
     Chrome, Finish, Glass, Material, MaterialError, Model, ModelCamera, ModelSettings, NamedWorld, Object, Paint,
-    PictureKind, PictureReader, PictureSource, Refraction, Scene, SceneFile, SceneReader,
+    PictureKind, PictureReader, PictureSource, Refraction, Scene, SceneFile, SceneReader, Sphere,
 };
 
 use super::model::model;
@@ -35,9 +35,7 @@ impl Things {
     /// Returns the things that were asked for, with their pictures.
     pub(super) fn read(args: &ShadeArgs) -> Result<Self> {
         let budget = MemoryBudget::new(args.limits.memory);
-        let most = budget.count_of(Model::TRIANGLE_BYTES);
-        let limits = Limits::memory(budget.bytes);
-        let mut reader = Reader { limits, most, files: HashSet::new(), cameras: Vec::new() };
+        let mut reader = Reader { budget, files: HashSet::new(), cameras: Vec::new() };
         let file = args.scene.as_deref().map(|path| scene_file(path, &mut reader)).transpose()?;
         let scene = match &file {
             Some(file) => file.scene(&mut reader)?,
@@ -45,55 +43,66 @@ impl Things {
         };
         let worlds = file.as_ref().map_or_else(|| Ok(Vec::new()), SceneFile::worlds)?;
         let Reader { files, cameras, .. } = reader;
-        Ok(Self { scene, chrome: chrome(args, file.is_some())?, file, cameras, worlds, files })
+        Ok(Self { chrome: chrome(args, &scene)?, scene, file, cameras, worlds, files })
     }
 }
 
 /// Reader of pictures and texts.
 struct Reader {
-    limits: Limits,
-    /// Most triangles of a model.
-    most: usize,
+    /// Memory that is left for more.
+    budget: MemoryBudget,
     files: HashSet<PathBuf>,
     cameras: Vec<ModelCamera>,
 }
 
 impl PictureReader for Reader {
     fn picture(&mut self, source: PictureSource, kind: PictureKind) -> Result<Image<Rgba>, String> {
+        let limits = Limits::memory(self.budget.bytes);
         let file = match source {
             PictureSource::File(path) => {
                 self.files.insert(real_path(path));
-                read(path, &self.limits)
+                read(path, &limits)
             }
-            PictureSource::Bytes(bytes) => read_from(Cursor::new(bytes), "a picture inside the file", &self.limits),
+            PictureSource::Bytes(bytes) => read_from(Cursor::new(bytes), "a picture inside the file", &limits),
         };
         let file = file.map_err(|error| error.to_string())?;
-        Ok(match kind {
-            PictureKind::Colour => file.to_light(),
-            PictureKind::Numbers => {
-                // Numbers are what they are, whatever alpha says of their place.
-                let mut numbers = file.image.to_light(&Transfer::Linear);
-                for pixel in numbers.pixels_mut() {
-                    let [x, y, z] = pixel.unpremultiplied();
-                    *pixel = Rgba::opaque(x, y, z);
-                }
-                numbers
-            }
-        })
+        let transfer = match kind {
+            PictureKind::Colour => file.transfer(),
+            PictureKind::Numbers => Transfer::Linear,
+        };
+        let size = (file.image.width(), file.image.height());
+        self.budget.check_picture(size).map_err(|error| error.to_string())?;
+        self.spend(size.0 * size.1 * PIXEL_BYTES);
+        // Colours and numbers are what they are, whatever alpha says of their place.
+        Ok(file.image.without_alpha().to_light(&transfer))
     }
 }
 
 impl SceneReader for Reader {
     fn model(&mut self, path: &Path, settings: ModelSettings) -> Result<Object, String> {
-        let settings = ModelSettings { most: self.most, ..settings };
+        let settings = ModelSettings { most: self.most(), ..settings };
         self.read_model(path, &settings).map_err(|error| error.to_string())
     }
 }
 
+/// Memory of a pixel of a picture on things, with its part of the pyramid.
+const PIXEL_BYTES: usize = size_of::<Rgba>() * 4 / 3;
+
 impl Reader {
+    /// Returns the most triangles of another model.
+    fn most(&self) -> usize {
+        self.budget.count_of(Model::TRIANGLE_BYTES)
+    }
+
+    /// Sets memory aside for what was read.
+    fn spend(&mut self, bytes: usize) {
+        self.budget.bytes = self.budget.bytes.saturating_sub(bytes as u64);
+    }
+
     fn read_model(&mut self, path: &Path, settings: &ModelSettings) -> Result<Object> {
         self.files.insert(real_path(path));
         let model = model(path, settings, self)?;
+        self.spend(model.kept_bytes());
         self.cameras.extend(model.cameras);
         Ok(model.object)
     }
@@ -123,7 +132,7 @@ fn scene(args: &ShadeArgs, reader: &mut Reader) -> Result<Scene> {
     };
     material.check().map_err(|error| usage(format!("{}: {error}", option_of(&error))))?;
     let material = match &args.texture {
-        Some(path) => textured(&material, path, reader)?,
+        Some(path) => textured(&material, path, args, reader)?,
         None => material,
     };
     if args.crease.is_some() && !matches!(args.object, ObjectName::Model(_)) {
@@ -143,7 +152,7 @@ fn scene(args: &ShadeArgs, reader: &mut Reader) -> Result<Scene> {
         ObjectName::Plate4 => Ok(Scene::plate4()),
         ObjectName::Model(path) => {
             let settings =
-                ModelSettings { crease: args.crease, material: Some(material), most: reader.most, placing: None };
+                ModelSettings { crease: args.crease, material: Some(material), most: reader.most(), placing: None };
             Ok(Scene { objects: vec![reader.read_model(path, &settings)?] })
         }
     }
@@ -158,19 +167,21 @@ fn own(args: &ShadeArgs, reader: &mut Reader) -> Result<Scene> {
     if changes || glass(args, None)?.is_some() {
         return Err(usage("--material own is what the file says: leave out --dc, --sc, --alpha and --texture"));
     }
-    let settings = ModelSettings { crease: args.crease, material: None, most: reader.most, placing: None };
+    let settings = ModelSettings { crease: args.crease, material: None, most: reader.most(), placing: None };
     Ok(Scene { objects: vec![reader.read_model(path, &settings)?] })
 }
 
 /// Returns a material with a picture for its colour.
-fn textured(material: &Material, path: &Path, reader: &mut Reader) -> Result<Material> {
+fn textured(material: &Material, path: &Path, args: &ShadeArgs, reader: &mut Reader) -> Result<Material> {
     let Some(finish) = material.paintable() else {
         return Err(usage(
             "--texture colours what is matt or metallic-roughness; add --material matte, or as in --material roughness=0.5",
         ));
     };
     let picture = reader.picture(PictureSource::File(path), PictureKind::Colour).map_err(Error::msg)?;
-    let map = Some(Arc::new(Texture::new(picture, [Wrap::Repeat, Wrap::Clamp])));
+    let is_model = matches!(args.object, ObjectName::Model(_));
+    let wrap = if is_model { [Wrap::Repeat; 2] } else { Sphere::wrap(Wrap::Repeat) };
+    let map = Some(Arc::new(Texture::new(picture, wrap)));
     let base = Paint { map, ..finish.base.clone() };
     Ok(Material { finish: Some(Arc::new(Finish { base, ..finish })), ..material.clone() })
 }
@@ -188,9 +199,14 @@ fn option_of(error: &MaterialError) -> &'static str {
 }
 
 /// Returns the table of chrome that was asked for; its options are for nothing else.
-fn chrome(args: &ShadeArgs, is_file: bool) -> Result<Chrome> {
-    if !args.material.is_chrome() && !is_file {
-        let message = "--chrome and --highlight are for chrome; add --material chrome";
+fn chrome(args: &ShadeArgs, scene: &Scene) -> Result<Chrome> {
+    if !scene.parts().any(|part| part.material.chrome) {
+        let message = match args.scene {
+            Some(_) => {
+                "--chrome and --highlight are for chrome, and nothing in the scene file is of it; leave them out"
+            }
+            None => "--chrome and --highlight are for chrome; add --material chrome",
+        };
         let is_given = args.chrome.is_some() || !args.highlight.is_empty();
         return if is_given { Err(usage(message)) } else { Ok(Chrome::earth_and_sky()) };
     }
@@ -211,13 +227,15 @@ fn glass(args: &ShadeArgs, asked: Option<Glass>) -> Result<Option<Glass>> {
         let message = "--ior, --absorption, --refract and --surfaces are for glass; add --material glass";
         return if given { Err(usage(message)) } else { Ok(None) };
     };
+    let is_bent = args.refract == Some(RefractName::Bent);
+    if is_bent && (args.absorption.is_some() || args.surfaces.is_some()) {
+        let message = "--refract bent goes no further than the first surface: leave out --absorption and --surfaces";
+        return Err(usage(message));
+    }
     Ok(Some(Glass {
         index: args.ior.map_or(usual.index, |index| index.0),
         absorption: args.absorption.map_or(usual.absorption, |absorption| absorption.0),
-        refraction: match args.refract {
-            Some(RefractName::Bent) => Refraction::Bent,
-            Some(RefractName::Traced) | None => Refraction::Traced,
-        },
+        refraction: if is_bent { Refraction::Bent } else { Refraction::Traced },
         surfaces: args.surfaces.unwrap_or(usual.surfaces),
         ..usual
     }))

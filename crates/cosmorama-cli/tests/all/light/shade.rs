@@ -1,7 +1,7 @@
 //! Things under a world: `shade`.
 
 use cosmorama::compare::{Mask, compare};
-use cosmorama::raster::{Channels, Depth, Image, Rgba, Transfer};
+use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
 use serde_json::Value;
 
 use crate::bench::{Bench, assert_says};
@@ -154,7 +154,8 @@ fn chrome_needs_no_world() {
 fn what_cannot_be_is_refused() {
     let bench = Bench::new();
     bench.save("sky.exr", &crate::bench::floats(64, 32, |_, _| [0.25, 0.5, 1.0]));
-    let cases: [(&[&str], &[&str]); 18] = [
+    std::fs::write(bench.path("scene.toml"), "[[object]]\nshape = 'sphere'\n").unwrap();
+    let cases: [(&[&str], &[&str]); 20] = [
         (&["ball.jpg", "--background", "transparent"], &["JPEG", "no alpha", ".png"]),
         (&["ball.png", "--eye", "0,0,0"], &["--eye", "no direction"]),
         (&["ball.png", "--eye", "0,0"], &["--eye", "three numbers"]),
@@ -169,6 +170,11 @@ fn what_cannot_be_is_refused() {
         (&["ball.png", "--material", "metalic=1"], &["'metalic'", "did you mean metallic?"]),
         (&["ball.png", "--material", "metallic=2"], &["2 is outside 0 to 1"]),
         (&["ball.png", "--material", "roughness=1", "--alpha", "0.5"], &["--alpha", "roughness=0.5"]),
+        (
+            &["ball.png", "--material", "glass", "--refract", "bent", "--surfaces", "8"],
+            &["--refract bent", "--surfaces"],
+        ),
+        (&["ball.png", "--scene", "scene.toml", "--highlight", "0:0"], &["--highlight", "nothing in the scene file"]),
         (&["ball.png", "--texture", "sky.exr"], &["--texture", "--material matte"]),
         (&["ball.png", "--part", "sphere2=sky.exr"], &["--part", "no 'sphere2'", "sphere1"]),
         (&["ball.png", "--proxy", "box:1,2"], &["--proxy", "box:X,Y,Z"]),
@@ -202,9 +208,20 @@ fn metallic_roughness_and_textures_have_their_colours() {
     // An insulator keeps all light of a white world: what it does not reflect it scatters.
     let white = shade(&["--material", "roughness=0.4"]);
     assert!((4..60).all(|i| near(at(&white, i), [1.0; 3])), "{:?}", at(&white, 20));
-    let globe = shade(&["--material", "matte", "--texture", "map.exr"]);
-    let (left, right) = (at(&globe, 20), at(&globe, 44));
-    assert!(near(left, [0.5, 0.0, 0.0]) && near(right, [0.0, 0.0, 0.5]), "{left:?} {right:?}");
+    // Alpha is of no account on surfaces, even where there is none.
+    let halves =
+        Image::from_fn(64, 32, |i, _| if i < 32 { Rgba([0.5, 0.0, 0.0, 0.0]) } else { Rgba([0.0, 0.0, 0.25, 0.5]) });
+    bench.save("clear.exr", &EncodedImage::encode(&halves, Channels::Rgba, Depth::Float, &Transfer::Linear));
+    for map in ["map.exr", "clear.exr"] {
+        let globe = shade(&["--material", "matte", "--texture", map]);
+        let (left, right) = (at(&globe, 20), at(&globe, 44));
+        assert!(near(left, [0.5, 0.0, 0.0]) && near(right, [0.0, 0.0, 0.5]), "{map}: {left:?} {right:?}");
+    }
+    // Its north is white, and its south black: around the ball they do not meet.
+    bench.save("poles.exr", &crate::bench::floats(64, 32, |_, j| if j < 16 { [1.0; 3] } else { [0.0; 3] }));
+    let seen = ["--camera", "orthographic:height=2", "--eye", "0,5,0.01", "--target", "0,0,0"];
+    let north = shade(&[&["--material", "matte", "--texture", "poles.exr"], &seen[..]].concat());
+    assert!((28..36).all(|i| near(at(&north, i), [1.0; 3])), "{:?}", at(&north, 32));
 }
 
 #[test]

@@ -7,6 +7,7 @@ use gltf::Document;
 use gltf::buffer::{Buffer, Source, View};
 use percent_encoding::percent_decode_str;
 
+use crate::model::file::beside;
 use crate::model::{Model, ModelFault};
 
 /// The bytes of all buffers of a file.
@@ -25,11 +26,11 @@ impl Buffers {
         most: usize,
     ) -> Result<Self, ModelFault> {
         let largest = most.saturating_mul(Model::TRIANGLE_BYTES);
+        let mut left = largest;
         let read = |buffer: Buffer| {
             let fault = |why: String| ModelFault::Piece { piece: format!("buffer {}", buffer.index()), why };
-            if buffer.length() > largest {
-                return Err(fault(format!("has {} bytes; memory allows {largest}", buffer.length())));
-            }
+            let wrong = || fault(format!("has {} bytes; memory allows {largest}", buffer.length()));
+            left = left.checked_sub(buffer.length()).ok_or_else(wrong)?;
             let data = match buffer.source() {
                 Source::Bin => {
                     blob.take().ok_or_else(|| fault("is missing: the file has no binary part".to_owned()))?
@@ -79,7 +80,7 @@ impl Found {
         if uri.contains("://") {
             return Err(format!("is at '{uri}'; expected a file beside the model's, since nothing is fetched"));
         }
-        Ok(Self::File(folder.join(&*percent_decode_str(uri).decode_utf8_lossy())))
+        beside(folder, &percent_decode_str(uri).decode_utf8_lossy()).map(Self::File)
     }
 }
 

@@ -19,11 +19,12 @@ pub(super) struct Materials<'a> {
     /// By number; the one without is that of parts that name none.
     read: HashMap<Option<usize>, Material>,
     textures: HashMap<(usize, PictureKind, [Wrap; 2]), Arc<Texture>>,
+    normals: HashMap<(usize, [Wrap; 2]), NormalMap>,
 }
 
 impl<'a> Materials<'a> {
     pub(super) fn new(buffers: &'a Buffers, folder: &'a Path, pictures: &'a mut dyn PictureReader) -> Self {
-        Self { buffers, folder, pictures, read: HashMap::new(), textures: HashMap::new() }
+        Self { buffers, folder, pictures, read: HashMap::new(), textures: HashMap::new(), normals: HashMap::new() }
     }
 
     /// Returns a material.
@@ -49,8 +50,7 @@ impl<'a> Materials<'a> {
             map: map(material.emissive_texture(), PictureKind::Colour)?,
         };
         let normal = |normal: gltf::material::NormalTexture| {
-            let picture = self.picture(&normal.texture(), PictureKind::Numbers)?;
-            Ok::<NormalMap, ModelFault>(NormalMap::new(&picture, wrap(&normal.texture()), normal.scale().into()))
+            Ok::<NormalMap, ModelFault>(self.normals(&normal.texture())?.with_scale(normal.scale().into()))
         };
         let normal_map = material.normal_texture().map(normal).transpose()?;
         Ok(Material::of(Finish {
@@ -71,6 +71,17 @@ impl<'a> Materials<'a> {
         }
         let made = Arc::new(Texture::new(self.picture(texture, kind)?, wrap));
         self.textures.insert((image, kind, wrap), Arc::clone(&made));
+        Ok(made)
+    }
+
+    /// Reads a picture of normals, with a scale of 1.
+    fn normals(&mut self, texture: &gltf::Texture) -> Result<NormalMap, ModelFault> {
+        let key = (texture.source().index(), wrap(texture));
+        if let Some(read) = self.normals.get(&key) {
+            return Ok(read.clone());
+        }
+        let made = NormalMap::new(&self.picture(texture, PictureKind::Numbers)?, key.1, 1.0);
+        self.normals.insert(key, made.clone());
         Ok(made)
     }
 

@@ -6,6 +6,8 @@ mod camera;
 mod material;
 mod primitive;
 
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::path::Path;
 
 use cosmorama::sphere::Angle;
@@ -15,6 +17,8 @@ use gltf::{Document, Gltf, Node, Semantic};
 
 use self::buffers::Buffers;
 use self::material::{Materials, sets};
+use self::primitive::{Triangles, has_triangles};
+use super::file;
 use super::{Contents, ModelFault, ModelSettings};
 use crate::material::PictureReader;
 use crate::scene::Part;
@@ -28,8 +32,8 @@ pub(super) fn read(
     settings: &ModelSettings,
     pictures: &mut dyn PictureReader,
 ) -> Result<Contents, ModelFault> {
-    let most = settings.most;
-    let bytes = std::fs::read(path)?;
+    let bytes = file::read(path, settings.most_bytes())?;
+    check_bytes(&bytes, settings)?;
     let Gltf { document, blob } =
         Gltf::from_slice_without_validation(&bytes).map_err(|error| ModelFault::Format(error.to_string()))?;
     let is_unknown = |extension: &&str| !SUPPORTED.contains(extension);
@@ -39,23 +43,30 @@ pub(super) fn read(
     }
     check(&document)?;
     let nodes = nodes(&document)?;
-    let count = nodes.iter().map(|(node, _)| triangles(node)).fold(0, usize::saturating_add);
-    if count > most {
-        return Err(ModelFault::TooLarge { count, most });
-    }
+    let all = |count: fn(&Node) -> usize| nodes.iter().map(|(node, _)| count(node)).fold(0, usize::saturating_add);
+    settings.check_counts(all(triangles), all(vertices))?;
     let folder = path.parent().unwrap_or(Path::new(""));
-    let buffers = Buffers::read(&document, blob, folder, most)?;
+    let buffers = Buffers::read(&document, blob, folder, settings.most)?;
     // Normals that the file lacks are flat: section 3.7.2.1 of the format.
     let notes = notes(&document, settings.material.is_none());
     let mut contents = Contents { notes, ..Contents::new(Angle::from_degrees(0.0)) };
     let mut materials = Materials::new(&buffers, folder, pictures);
+    // Of meshes that stand in several places.
+    let mut read: HashMap<[usize; 2], Triangles> = HashMap::new();
     for (node, place) in &nodes {
         contents.cameras.extend(camera::camera(node, place));
         let Some(mesh) = node.mesh() else { continue };
+        // Skins place their meshes; the node's own place does not count.
+        let place = if node.skin().is_some() { &DMat4::IDENTITY } else { place };
         let is_one = mesh.primitives().len() == 1;
         for primitive in mesh.primitives() {
             let part = contents.parts.len();
-            contents.faces.extend(primitive::faces(&primitive, (place, part), &buffers)?);
+            let triangles = match read.entry([mesh.index(), primitive.index()]) {
+                Entry::Occupied(read) => read.into_mut(),
+                Entry::Vacant(unread) => unread.insert(Triangles::read(&primitive, &buffers)?),
+            };
+            contents.faces.extend(triangles.faces(place, part));
+            contents.is_one_sided |= !primitive.material().double_sided();
             let material = primitive.material().name().filter(|_| !is_one);
             let name = material
                 .or(node.name())
@@ -69,6 +80,23 @@ pub(super) fn read(
         }
     }
     Ok(contents)
+}
+
+/// Checks the parts of a file that its format's reader takes for granted.
+fn check_bytes(bytes: &[u8], settings: &ModelSettings) -> Result<(), ModelFault> {
+    /// Bytes of memory that a byte of JSON takes at most.
+    const PIECES: u64 = 32;
+    /// Bytes of a binary file's header.
+    const HEADER: u32 = 12;
+    let number = |at: usize| bytes.get(at..at + 4).and_then(|part| part.try_into().ok()).map(u32::from_le_bytes);
+    let is_binary = bytes.starts_with(b"glTF");
+    if let Some(length) = number(8).filter(|length| is_binary && *length < HEADER) {
+        let why = format!("its header says that it has {length} bytes; expected at least {HEADER}");
+        return Err(ModelFault::Format(why));
+    }
+    let json = if is_binary { number(HEADER as usize).unwrap_or(0).into() } else { bytes.len() as u64 };
+    let most = settings.most_bytes() / PIECES;
+    if json > most { Err(ModelFault::TooLong { bytes: json, most }) } else { Ok(()) }
 }
 
 /// Checks that all that the file's pieces name is there. Rules of other formats of vertices are not those of quantised ones.
@@ -129,11 +157,21 @@ fn nodes(document: &Document) -> Result<Vec<(Node<'_>, DMat4)>, ModelFault> {
     Ok(nodes)
 }
 
+/// Returns the number of vertices of a primitive's triangles.
+fn positions(primitive: &gltf::Primitive) -> usize {
+    let positions = primitive.get(&Semantic::Positions).filter(|_| has_triangles(primitive));
+    positions.map_or(0, |accessor| accessor.count())
+}
+
+/// Returns the number of vertices of a node.
+fn vertices(node: &Node) -> usize {
+    node.mesh().map_or(0, |mesh| mesh.primitives().map(|part| positions(&part)).fold(0, usize::saturating_add))
+}
+
 /// Returns the number of triangles of a node.
 fn triangles(node: &Node) -> usize {
     let count = |primitive: gltf::Primitive| {
-        let positions = primitive.get(&Semantic::Positions).map_or(0, |accessor| accessor.count());
-        let corners = primitive.indices().map_or(positions, |accessor| accessor.count());
+        let corners = primitive.indices().map_or_else(|| positions(&primitive), |accessor| accessor.count());
         match primitive.mode() {
             Mode::Triangles => corners / 3,
             Mode::TriangleStrip | Mode::TriangleFan => corners.saturating_sub(2),
@@ -143,16 +181,22 @@ fn triangles(node: &Node) -> usize {
     node.mesh().map_or(0, |mesh| mesh.primitives().map(count).fold(0, usize::saturating_add))
 }
 
+fn is_nearest(sampler: &gltf::texture::Sampler) -> bool {
+    sampler.mag_filter() == Some(gltf::texture::MagFilter::Nearest)
+}
+
 /// Lists what a file has that is not shown. Its materials may not be wanted.
 fn notes(document: &Document, has_materials: bool) -> Vec<String> {
     let primitives = || document.meshes().flat_map(|mesh| mesh.primitives());
-    let is_line = |primitive: gltf::Primitive| {
-        !matches!(primitive.mode(), Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)
-    };
+    let is_line = |primitive: gltf::Primitive| !has_triangles(&primitive);
     let is_clear = |primitive: gltf::Primitive| primitive.material().alpha_mode() != gltf::material::AlphaMode::Opaque;
     let is_occluded = |material: gltf::Material| material.occlusion_texture().is_some();
     let is_of_two = |material: gltf::Material| sets(&material).windows(2).any(|pair| pair[0] != pair[1]);
     let all = [
+        (
+            has_materials && document.samplers().any(|sampler| is_nearest(&sampler)),
+            "pictures are averaged where samplers ask for the nearest texel",
+        ),
         (document.skins().len() > 0, "skins are not applied: things are as they rest"),
         (document.animations().len() > 0, "animations are not applied"),
         (primitives().any(is_line), "points and lines are left out"),

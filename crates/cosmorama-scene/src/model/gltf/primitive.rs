@@ -8,62 +8,77 @@ use super::material::sets;
 use crate::model::ModelFault;
 use crate::shape::Face;
 
-/// Reads the triangles of a primitive at a place in the scene, as a part of the model.
-pub(super) fn faces(
-    primitive: &Primitive,
-    (place, part): (&DMat4, usize),
-    buffers: &Buffers,
-) -> Result<Vec<Face>, ModelFault> {
-    let Some(accessor) = primitive.get(&Semantic::Positions) else { return Ok(Vec::new()) };
-    let points: Vec<DVec3> =
-        numbers(&accessor, buffers)?.into_iter().map(|point| place.transform_point3(point.into())).collect();
-    let turn = DMat3::from_mat4(*place);
-    // Normals keep their angles to the surface; a mirrored place turns triangles around.
-    let (side, normal_turn) = (turn.determinant().signum(), turn.inverse().transpose() * turn.determinant().abs());
-    let normals = attribute(primitive, &Semantic::Normals, buffers)?;
-    let normals = normals.map(|normals| mapped(normals, |normal: [f64; 3]| normal_turn * DVec3::from(normal)));
-    let tangents = attribute(primitive, &Semantic::Tangents, buffers)?;
-    let tangents = tangents.map(|tangents| {
-        mapped(tangents, |[x, y, z, w]: [f64; 4]| (turn * DVec3::new(x, y, z)).normalize_or_zero().extend(w * side))
-    });
-    // The set of the material's pictures; those of a scene file go by the first.
-    let set = sets(&primitive.material()).first().copied().unwrap_or(0);
-    let uvs = attribute(primitive, &Semantic::TexCoords(set), buffers)?;
-    let uvs = uvs.map(|uvs| mapped(uvs, DVec2::from_array));
-    for (name, count) in [
-        ("normals", normals.as_ref().map(Vec::len)),
-        ("tangents", tangents.as_ref().map(Vec::len)),
-        ("texture coordinates", uvs.as_ref().map(Vec::len)),
-    ] {
-        if let Some(count) = count.filter(|count| *count != points.len()) {
-            let why = format!("has {count} {name} for {} vertices", points.len());
-            return Err(ModelFault::Piece { piece: format!("accessor {}", accessor.index()), why });
-        }
-    }
-    let corners = match primitive.indices() {
-        Some(accessor) => indices(&accessor, points.len(), buffers)?,
-        None => (0..points.len()).collect(),
-    };
-    let face = |corners: [usize; 3]| {
-        let [a, b, c] = corners;
-        let corners = if side < 0.0 { [a, c, b] } else { corners };
-        Face {
-            corners: corners.map(|corner| points[corner]),
-            normals: normals.as_ref().map(|normals| corners.map(|corner| normals[corner])),
-            uvs: uvs.as_ref().map(|uvs: &Vec<DVec2>| corners.map(|corner| uvs[corner])),
-            tangents: tangents.as_ref().map(|tangents: &Vec<DVec4>| corners.map(|corner| tangents[corner])),
-            part,
-        }
-    };
-    Ok(triangles(primitive.mode(), &corners).into_iter().map(face).collect())
+/// Triangles of a primitive, in its own frame.
+pub(super) struct Triangles {
+    points: Vec<DVec3>,
+    normals: Option<Vec<DVec3>>,
+    tangents: Option<Vec<DVec4>>,
+    uvs: Option<Vec<DVec2>>,
+    /// Vertices at the corners of each.
+    corners: Vec<[usize; 3]>,
 }
 
+/// Returns whether a primitive has triangles: not points or lines.
+pub(super) fn has_triangles(primitive: &Primitive) -> bool {
+    matches!(primitive.mode(), Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)
+}
+
+impl Triangles {
+    /// Reads the triangles of a primitive.
+    pub(super) fn read(primitive: &Primitive, buffers: &Buffers) -> Result<Self, ModelFault> {
+        let positions = primitive.get(&Semantic::Positions).filter(|_| has_triangles(primitive));
+        let points = positions.map(|accessor| numbers(&accessor, buffers)).transpose()?.unwrap_or_default();
+        let points = mapped(points, DVec3::from_array);
+        let count = points.len();
+        let normals = attribute(primitive, (&Semantic::Normals, "normals"), count, buffers)?;
+        let normals = normals.map(|normals| mapped(normals, DVec3::from_array));
+        let tangents = attribute(primitive, (&Semantic::Tangents, "tangents"), count, buffers)?;
+        // Tangents without normals do not count: section 3.7.2.1 of the format.
+        let tangents = tangents.filter(|_| normals.is_some()).map(|tangents| mapped(tangents, DVec4::from_array));
+        // The set of the material's pictures; those of a scene file go by the first.
+        let set = sets(&primitive.material()).first().copied().unwrap_or(0);
+        let uvs = attribute(primitive, (&Semantic::TexCoords(set), "texture coordinates"), count, buffers)?;
+        let uvs = uvs.map(|uvs| mapped(uvs, DVec2::from_array));
+        let corners = match primitive.indices() {
+            _ if count == 0 => Vec::new(),
+            Some(accessor) => indices(&accessor, count, buffers)?,
+            None => (0..count).collect(),
+        };
+        Ok(Self { points, normals, tangents, uvs, corners: triangles(primitive.mode(), &corners) })
+    }
+
+    /// Lists the triangles at a place in the scene, as a part of the model.
+    pub(super) fn faces(&self, place: &DMat4, part: usize) -> impl Iterator<Item = Face> {
+        let turn = DMat3::from_mat4(*place);
+        // Normals keep their angles to the surface; a mirrored place turns triangles around.
+        let (side, normal_turn) = (turn.determinant().signum(), turn.inverse().transpose() * turn.determinant().abs());
+        let tangent = move |tangent: DVec4| (turn * tangent.truncate()).normalize_or_zero().extend(tangent.w * side);
+        self.corners.iter().map(move |[a, b, c]| {
+            let corners = if side < 0.0 { [*a, *c, *b] } else { [*a, *b, *c] };
+            Face {
+                corners: corners.map(|corner| place.transform_point3(self.points[corner])),
+                normals: self.normals.as_ref().map(|normals| corners.map(|corner| normal_turn * normals[corner])),
+                uvs: self.uvs.as_ref().map(|uvs| corners.map(|corner| uvs[corner])),
+                tangents: self.tangents.as_ref().map(|tangents| corners.map(|corner| tangent(tangents[corner]))),
+                part,
+            }
+        })
+    }
+}
+
+/// Reads an attribute of a number of vertices; `None` if the primitive has no such.
 fn attribute<const N: usize>(
     primitive: &Primitive,
-    semantic: &Semantic,
+    (semantic, name): (&Semantic, &str),
+    count: usize,
     buffers: &Buffers,
 ) -> Result<Option<Vec<[f64; N]>>, ModelFault> {
-    primitive.get(semantic).map(|accessor| numbers(&accessor, buffers)).transpose()
+    let Some(accessor) = primitive.get(semantic).filter(|_| has_triangles(primitive)) else { return Ok(None) };
+    if accessor.count() != count {
+        let why = format!("has {} {name} for {count} vertices", accessor.count());
+        return Err(ModelFault::Piece { piece: format!("accessor {}", accessor.index()), why });
+    }
+    numbers(&accessor, buffers).map(Some)
 }
 
 fn mapped<T, U>(values: Vec<T>, map: impl Fn(T) -> U) -> Vec<U> {

@@ -2,9 +2,9 @@ use cosmorama::sphere::Angle;
 use glam::{DVec2, DVec3, DVec4};
 use thiserror::Error;
 
-use super::map::Map;
 use super::normals::made;
 use super::rim::Rims;
+use super::tangents::maps;
 use super::tree::{Corners, Tree};
 use super::{Mesh, Skin};
 
@@ -82,13 +82,11 @@ impl Mesh {
         let faces: Vec<Face> = order.iter().map(|k| faces[*k as usize]).collect();
         let welded = Welded::new(&faces);
         let normals = made(&faces, &welded, normals);
+        let maps = maps(&faces, &welded, &normals);
         let pieces = welded.pieces();
         let skin =
             |((face, normals), piece): ((&Face, [DVec3; 3]), u32)| Skin { normals, part: face.part as u32, piece };
         let skins: Vec<Skin> = faces.iter().zip(normals).zip(pieces).map(skin).collect();
-        let map = |face: &Face| Some(Map { uvs: face.uvs?, tangents: face.tangents });
-        let has_maps = faces.iter().any(|face| face.uvs.is_some());
-        let maps = if has_maps { faces.iter().map(map).collect() } else { Vec::new() };
         let rims = Rims::new(&welded, &skins);
         let apex = tree.ball().centre;
         let volume = |[a, b, c]: &Corners| (a - apex).dot((b - apex).cross(c - apex)) / 6.0;

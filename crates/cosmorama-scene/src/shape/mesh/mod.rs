@@ -4,7 +4,10 @@ mod build;
 mod map;
 mod normals;
 mod rim;
+mod tangents;
 mod tree;
+
+use std::collections::BTreeSet;
 
 use glam::DVec3;
 
@@ -60,12 +63,23 @@ impl Mesh {
         self.skins.iter().map(|skin| skin.part as usize).max().unwrap_or_default()
     }
 
+    /// Returns whether a triangle has texture coordinates.
+    pub(crate) fn has_maps(&self) -> bool {
+        !self.maps.is_empty()
+    }
+
+    /// Returns the parts of which a triangle has no texture coordinates.
+    pub(crate) fn bare_parts(&self) -> BTreeSet<usize> {
+        let is_bare = |face: &usize| self.maps.get(*face).is_none_or(Option::is_none);
+        (0..self.count()).filter(is_bare).map(|face| self.skins[face].part as usize).collect()
+    }
+
     /// Returns a ball around all of it.
     pub fn ball(&self) -> &Sphere {
         self.tree.ball()
     }
 
-    /// Returns an edge that does not join two triangles, if there is one: the mesh then holds nothing.
+    /// Returns an edge at which the surface ends or turns inside out, if there is one: the mesh then bounds no solid.
     pub fn hole(&self) -> Option<[DVec3; 2]> {
         self.rims.hole()
     }
@@ -88,7 +102,12 @@ impl Mesh {
 
     /// Returns the first triangle that a ray meets beyond a distance.
     pub(crate) fn meet(&self, ray: &Ray, beyond: f64) -> Option<Hit> {
-        self.tree.meet(ray, beyond)
+        self.tree.meet(ray, beyond, |_| true)
+    }
+
+    /// Returns whether a ray meets any triangle beyond a distance.
+    pub(crate) fn is_met(&self, ray: &Ray, beyond: f64) -> bool {
+        self.tree.is_met(ray, beyond)
     }
 
     /// Returns the number of the piece of the surface that a triangle belongs to.
@@ -103,7 +122,7 @@ impl Mesh {
     /// Returns the surface where a ray meets a triangle.
     ///
     /// The normal is interpolated, and turns over the pixel as its corners' weights change (Igehy 1999, section 3.2). It is
-    /// that of the side which the ray comes from.
+    /// that of the side which the ray comes from, and faces the ray.
     pub(crate) fn wall(&self, ray: &Ray, hit: &Hit) -> Wall {
         let [a, b, c] = *self.tree.corners(hit.face);
         let sides = [b - a, c - a];
@@ -119,23 +138,26 @@ impl Mesh {
         };
         let skin = &self.skins[hit.face];
         let normal = place.normal(&skin.normals);
-        let chart = self.maps.get(hit.face).and_then(Option::as_ref).map(|map| map.chart(&place, sides, normal.unit));
+        let chart = self.maps.get(hit.face).and_then(Option::as_ref).map(|map| map.chart(&place, normal.unit));
         let is_behind = normal.unit.dot(outward) < 0.0;
         let (normal, chart) = if is_behind { (normal.reversed(), chart.map(Chart::reversed)) } else { (normal, chart) };
-        Wall { met, normal, distance: hit.distance, part: skin.part as usize, chart }
+        Wall { met, normal: normal.leaning_back(ray), distance: hit.distance, part: skin.part as usize, chart }
+    }
+
+    /// Returns the first surface that a ray meets on its way out of the mesh, or into it. Smooth normals may send a ray to the
+    /// wrong side of its triangle; surfaces of the other side then do not count.
+    fn passage(&self, ray: &Ray, is_out: bool) -> Option<Wall> {
+        let is_passed = |face: usize| (self.plane(face).0.dot(ray.direction) * self.volume > 0.0) == is_out;
+        self.tree.meet(ray, self.away(), is_passed).map(|hit| self.wall(ray, &hit))
     }
 }
 
 impl Solid for Mesh {
     fn next(&self, ray: &Ray) -> Option<Wall> {
-        self.meet(ray, self.away()).map(|hit| self.wall(ray, &hit))
+        self.passage(ray, true)
     }
 
-    /// Returns the surface that a ray from outside meets again. A ray that smooth normals send into the surface meets it from
-    /// behind, which does not count.
     fn again(&self, ray: &Ray) -> Option<Wall> {
-        let hit = self.meet(ray, self.away())?;
-        let is_from_outside = self.plane(hit.face).0.dot(ray.direction) * self.volume < 0.0;
-        is_from_outside.then(|| self.wall(ray, &hit))
+        self.passage(ray, false)
     }
 }

@@ -33,7 +33,7 @@ pub(super) fn made(faces: &[Face], welded: &Welded, how: Normals) -> Vec<[DVec3;
 }
 
 /// Returns the angle of a triangle at a corner.
-fn angle(corners: &[DVec3; 3], at: usize) -> f64 {
+pub(super) fn angle(corners: &[DVec3; 3], at: usize) -> f64 {
     let [a, b, c] = [0, 1, 2].map(|k| corners[(at + k) % 3]);
     (b - a).angle_between(c - a)
 }

@@ -32,7 +32,7 @@ enum Kind {
     Smooth,
     /// A crease, or a seam of parts.
     Crease,
-    /// An edge of an odd number of triangles.
+    /// An edge that triangles do not pass as often in one direction as in the other: the surface ends there, or turns inside out.
     Border,
 }
 
@@ -65,9 +65,10 @@ impl Rims {
                 let kind = if is_crease(a, b) { Kind::Crease } else { Kind::Smooth };
                 Edge { ends: a.0, faces: [a.1, b.1], kind }
             }
-            // Two that face opposite ways, or sheets that touch along an edge.
+            // An end, two that face opposite ways, or sheets that touch along an edge.
             group => {
-                let kind = if group.len() % 2 == 0 { Kind::Crease } else { Kind::Border };
+                let forwards = group.iter().filter(|half| half.2).count();
+                let kind = if 2 * forwards == group.len() { Kind::Crease } else { Kind::Border };
                 Edge { ends: group[0].0, faces: [group[0].1; 2], kind }
             }
         };

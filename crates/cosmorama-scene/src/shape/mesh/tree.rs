@@ -60,14 +60,23 @@ impl Tree {
         &self.corners[face]
     }
 
-    /// Returns the first triangle that a ray meets beyond a distance.
-    pub(super) fn meet(&self, ray: &Ray, beyond: f64) -> Option<Hit> {
+    /// Returns whether a ray meets any triangle beyond a distance.
+    pub(super) fn is_met(&self, ray: &Ray, beyond: f64) -> bool {
+        let Some(start) = self.start(ray) else { return false };
+        let is_hit = |face: usize| meet(ray, &self.corners[face]).is_some_and(|(distance, _)| distance > beyond);
+        // Any distance of the ray's length is a hit, which ends the search.
+        let is_missed = |_: &BoxRay, face: usize| if is_hit(face) { 0.0 } else { f32::INFINITY };
+        !self.boxes.ray_traverse_miss(self.local(ray, start), is_missed)
+    }
+
+    /// Returns the first of some triangles that a ray meets beyond a distance.
+    pub(super) fn meet(&self, ray: &Ray, beyond: f64, is_wanted: impl Fn(usize) -> bool) -> Option<Hit> {
         let start = self.start(ray)?;
         let mut nearest: Option<Hit> = None;
         self.boxes.ray_traverse(self.local(ray, start), &mut RayHit::none(), |_, face| {
             let most = nearest.as_ref().map_or(f64::INFINITY, |hit| hit.distance);
             let hit = meet(ray, &self.corners[face]).filter(|(distance, _)| *distance > beyond && *distance < most);
-            let Some((distance, weights)) = hit else { return f32::INFINITY };
+            let Some((distance, weights)) = hit.filter(|_| is_wanted(face)) else { return f32::INFINITY };
             nearest = Some(Hit { distance, face, weights });
             (distance / self.ball.radius - start) as f32 + ROOM
         });
@@ -148,8 +157,9 @@ mod tests {
                 let ray = Ray { origin, direction: (target - origin).normalize(), dx: STILL, dy: STILL };
                 let all = tree.corners.iter().filter_map(|corners| meet(&ray, corners)).map(|(distance, _)| distance);
                 let expected = all.filter(|distance| *distance > 0.0).reduce(f64::min);
-                let found = tree.meet(&ray, 0.0).map(|hit| hit.distance);
+                let found = tree.meet(&ray, 0.0, |_| true).map(|hit| hit.distance);
                 assert_eq!(found, expected, "ray {k}");
+                assert_eq!(tree.is_met(&ray, 0.0), expected.is_some(), "ray {k}");
                 count += usize::from(found.is_some());
             }
             assert!(count > 500, "{count} rays meet something");
@@ -166,7 +176,7 @@ mod tests {
         for k in 0..3000 {
             let target = middle.lerp(rim(k % 9), 0.3 * (chance(k) + 1.0));
             let direction = (target - eye).normalize();
-            assert!(tree.meet(&Ray { origin: eye, direction, dx: STILL, dy: STILL }, 0.0).is_some(), "ray {k}");
+            assert!(tree.is_met(&Ray { origin: eye, direction, dx: STILL, dy: STILL }, 0.0), "ray {k}");
         }
     }
 }
