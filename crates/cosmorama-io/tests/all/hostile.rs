@@ -1,6 +1,7 @@
 //! Files are hostile: errors, never panics, and no memory for what is only declared.
 
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 use crate::common::picture;
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
@@ -49,13 +50,22 @@ fn truncated_files_are_errors_at_every_length() {
     }
 }
 
+/// Mutants of each format: 600, or as many as `COSMORAMA_MUTANTS` says.
+fn mutants() -> usize {
+    std::env::var("COSMORAMA_MUTANTS").ok().and_then(|count| count.parse().ok()).unwrap_or(600)
+}
+
+/// Longest time that a file of some kilobytes may take.
+const LONGEST: Duration = Duration::from_secs(10);
+
 #[test]
 fn damaged_bytes_never_panic() {
     let folder = tempfile::tempdir().unwrap();
     for extension in EXTENSIONS {
         let bytes = written(extension);
         let mut seed = 1_u32;
-        for _ in 0..600 {
+        for mutant in 0..mutants() {
+            let start = Instant::now();
             let mut damaged = bytes.clone();
             for _ in 0..3 {
                 seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -64,6 +74,7 @@ fn damaged_bytes_never_panic() {
                 damaged[seed as usize / 512 % range] = (seed >> 3) as u8;
             }
             let _ = read_bytes(folder.path(), extension, &damaged);
+            assert!(start.elapsed() < LONGEST, "{extension}, mutant {mutant}: {:?}", start.elapsed());
         }
     }
 }
