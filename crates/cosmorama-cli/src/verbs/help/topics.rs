@@ -23,7 +23,7 @@ const PAGES: [(&[&str], &str); 7] = [
 fn list(topic: &str) -> Option<String> {
     Some(match topic.trim_end_matches('s') {
         "kernel" => names("--kernel NAME[:scale=S,floor=F] weighs what a pixel averages", &KernelName::NAMES),
-        "filter" => names("--filter NAME chooses what a pixel averages", &FilterName::NAMES),
+        "filter" => names("--filter NAME chooses what a pixel averages", FilterName::NAMES),
         "transfer" => names("--transfer T is how integer code values relate to light", &TransferName::NAMES),
         "primarie" | "primary" => names("--primaries P are the output's primaries", &PrimariesName::NAMES),
         "depth" => {

@@ -1,0 +1,209 @@
+use glam::{DMat2, DVec2};
+
+use crate::camera::{Footprint, PixelPoint};
+use crate::filter::Kernel;
+use crate::filter::classic::method::Method;
+use crate::filter::gather::ellipse::widened;
+use crate::filter::reference::look;
+use crate::filter::traits::{Prepared, bounded};
+use crate::raster::Rgba;
+use crate::world::{Source, World};
+
+/// A rule that weighs the texels of one view under a footprint.
+pub(in crate::filter::classic) trait Region: Send + Sync {
+    /// Calls `visit` with each texel that counts, at its column and row, and with its weight.
+    fn texels(&self, seen: &Seen, visit: impl FnMut([i64; 2], f64));
+
+    /// Returns the kernel by which it weighs on the screen; `None` if it has a shape of its own.
+    fn kernel(&self) -> Option<Kernel> {
+        None
+    }
+}
+
+/// A footprint as one view sees it.
+pub(in crate::filter::classic) struct Seen<'a> {
+    pub(in crate::filter::classic) source: &'a Source,
+    pub(in crate::filter::classic) footprint: &'a Footprint,
+    /// Place of its middle in the image.
+    pub(in crate::filter::classic) place: DVec2,
+    /// Derivatives of the place by screen x and y, in texels.
+    pub(in crate::filter::classic) jacobian: DMat2,
+}
+
+/// Columns and rows, of a view or beyond its edges.
+pub(in crate::filter::classic) struct Rectangle {
+    pub(in crate::filter::classic) columns: std::ops::RangeInclusive<i64>,
+    pub(in crate::filter::classic) rows: std::ops::RangeInclusive<i64>,
+}
+
+/// Greatest reach of a footprint in texels, beyond which an image has repeated itself, or ended, long before.
+pub(in crate::filter::classic) const FARTHEST: f64 = 1e6;
+
+/// Greatest distance of a corner from where derivatives place it, as a part of its distance from the middle, for four of
+/// them to make a quadrilateral.
+const BENT: f64 = 0.25;
+
+/// Corners of a square of the screen, in order around it.
+const SQUARE: [DVec2; 4] = [DVec2::new(-1.0, -1.0), DVec2::new(1.0, -1.0), DVec2::new(1.0, 1.0), DVec2::new(-1.0, 1.0)];
+
+impl<'a> Seen<'a> {
+    fn new(source: &'a Source, footprint: &'a Footprint) -> Option<Self> {
+        let (pixel, jacobian) = source.view.texel_footprint(footprint)?;
+        let place = DVec2::new(pixel.x, pixel.y);
+        // From farther away nothing reaches an image, and what is not finite is farther away.
+        let is_near = place.abs().max_element() < 4.0 * FARTHEST;
+        (is_near && jacobian.is_finite()).then_some(Self { source, footprint, place, jacobian })
+    }
+
+    /// Returns half the size of the box around the parallelogram whose sides are the derivatives.
+    pub(in crate::filter::classic) fn half_box(&self) -> DVec2 {
+        0.5 * (self.jacobian.x_axis.abs() + self.jacobian.y_axis.abs())
+    }
+
+    /// Returns the derivatives with short ones raised, so that a footprint has at least the size of a texel each way.
+    pub(in crate::filter::classic) fn widened(&self) -> DMat2 {
+        widened(self.jacobian, 1.0)
+    }
+
+    /// Returns the corners of a square of the screen that reaches `half` pixels to each side of the middle. Each is mapped
+    /// exactly, unless that is no quadrilateral any more: then derivatives place all of them.
+    pub(in crate::filter::classic) fn corners(&self, half: f64) -> [DVec2; 4] {
+        let straight = self.parallelogram(self.jacobian, half);
+        let [a, b, c, d] = SQUARE.map(|at| self.mapped(at * half));
+        let Some(corners) = a.zip(b).zip(c.zip(d)).map(|((a, b), (c, d))| [a, b, c, d]) else { return straight };
+        let is_straight =
+            |(corner, straight): (&DVec2, &DVec2)| corner.distance(*straight) < BENT * straight.distance(self.place);
+        if corners.iter().zip(&straight).all(is_straight) { corners } else { straight }
+    }
+
+    /// Returns the corners of a square of the screen, as derivatives place them.
+    pub(in crate::filter::classic) fn parallelogram(&self, jacobian: DMat2, half: f64) -> [DVec2; 4] {
+        SQUARE.map(|at| self.place + jacobian * at * half)
+    }
+
+    /// Returns the place of a point of the screen, in pixels from the middle; in a panorama, the nearest of all turns.
+    fn mapped(&self, at: DVec2) -> Option<DVec2> {
+        let there = self.source.view.pixel(self.footprint.direction_at(at.x, at.y)?)?;
+        let turns = |period: usize| ((self.place.x - there.x) / period as f64).round() * period as f64;
+        Some(DVec2::new(there.x + self.source.period.map_or(0.0, turns), there.y))
+    }
+
+    /// Returns half the size of the box around the middle that holds these corners.
+    pub(in crate::filter::classic) fn reach_of(&self, corners: [DVec2; 4]) -> DVec2 {
+        corners.into_iter().fold(DVec2::ZERO, |reach, corner| reach.max((corner - self.place).abs()))
+    }
+
+    /// Returns the texels whose squares reach into a box around the footprint's middle, as far as the view has some.
+    pub(in crate::filter::classic) fn texels_within(&self, half: DVec2) -> Rectangle {
+        let half = half.min(DVec2::splat(FARTHEST));
+        let (first, last) = ((self.place - half).floor(), (self.place + half).ceil());
+        let (width, height) = (self.source.view.width() as i64, self.source.view.height() as i64);
+        let (left, right) = match self.source.period {
+            // Once around the middle is enough: further columns repeat these.
+            Some(period) => {
+                let opposite = (self.place.x - 0.5 * period as f64).round() as i64;
+                (opposite, opposite + period as i64 - 1)
+            }
+            None => (0, width - 1),
+        };
+        Rectangle {
+            columns: (first.x as i64).max(left)..=(last.x as i64 - 1).min(right),
+            rows: (first.y as i64).max(0)..=(last.y as i64 - 1).min(height - 1),
+        }
+    }
+
+    /// Returns the offset of a texel's centre from the footprint's middle.
+    pub(in crate::filter::classic) fn offset(&self, [i, j]: [i64; 2]) -> DVec2 {
+        DVec2::new(i as f64 + 0.5, j as f64 + 0.5) - self.place
+    }
+
+    /// Returns the centre of a texel.
+    pub(in crate::filter::classic) fn centre([i, j]: [i64; 2]) -> PixelPoint {
+        PixelPoint::new(i as f64 + 0.5, j as f64 + 0.5)
+    }
+}
+
+/// A rule that weighs the texels of a world under a footprint.
+pub(in crate::filter::classic) trait Weighing: Send + Sync {
+    /// Calls `visit` with each texel that counts, by its place in the world's light, and with its weight.
+    fn for_each_texel(&self, world: &World, footprint: &Footprint, visit: impl FnMut(usize, f64));
+
+    /// Returns the kernel by which it weighs on the screen; `None` if it has a shape of its own.
+    fn kernel(&self) -> Option<Kernel>;
+}
+
+impl<R: Region> Weighing for R {
+    fn for_each_texel(&self, world: &World, footprint: &Footprint, mut visit: impl FnMut(usize, f64)) {
+        let radius = Region::kernel(self).map_or(1.0, |kernel| kernel.radius() * kernel.scale);
+        for source in world.sources() {
+            let Some(seen) = reached(source, footprint, radius) else { continue };
+            self.texels(&seen, |[i, j], weight| {
+                let Some(column) = source.column(i) else { return };
+                let texel = j as usize * source.view.width() + column as usize;
+                // Views that show one direction share it, so that nothing counts twice where they meet.
+                let weight = weight * f64::from(source.solid_angles[texel]);
+                if weight != 0.0 {
+                    visit(source.offset + texel, weight);
+                }
+            });
+        }
+    }
+
+    fn kernel(&self) -> Option<Kernel> {
+        Region::kernel(self)
+    }
+}
+
+impl<W: Weighing + 'static> Method for W {
+    fn prepare<'w>(self: Box<Self>, world: &'w World, light: &'w [Rgba]) -> Box<dyn Prepared + 'w> {
+        Box::new(Weighed { world, light, weighing: *self })
+    }
+
+    fn kernel(&self) -> Option<Kernel> {
+        Weighing::kernel(self)
+    }
+}
+
+/// Texels of a world's light, to be weighed.
+struct Weighed<'w, W> {
+    world: &'w World,
+    light: &'w [Rgba],
+    weighing: W,
+}
+
+impl<W: Weighing> Prepared for Weighed<'_, W> {
+    fn world(&self) -> &World {
+        self.world
+    }
+
+    fn reads(&self, footprint: &Footprint) -> usize {
+        let Some(footprint) = bounded(footprint) else { return 0 };
+        let mut count = 0;
+        self.weighing.for_each_texel(self.world, &footprint, |_, _| count += 1);
+        count
+    }
+
+    fn average(&self, footprint: &Footprint) -> Rgba {
+        let Some(footprint) = bounded(footprint) else { return Rgba::TRANSPARENT };
+        let (mut sum, mut weights) = ([0f64; 4], 0f64);
+        self.weighing.for_each_texel(self.world, &footprint, |texel, weight| {
+            for (sum, channel) in sum.iter_mut().zip(self.light[texel].0) {
+                *sum += weight * f64::from(channel);
+            }
+            weights += weight;
+        });
+        let mean = || Rgba(sum.map(|channel| (channel / weights) as f32));
+        if weights > 0.0 { mean() } else { look(self.world, footprint.direction, self.light).unwrap_or_default() }
+    }
+}
+
+/// Returns how a view sees a footprint whose kernel has this radius, in pixels; `None` if it shows nothing near it.
+pub(in crate::filter::classic) fn reached<'a>(
+    source: &'a Source,
+    footprint: &'a Footprint,
+    radius: f64,
+) -> Option<Seen<'a>> {
+    let width = footprint.jacobian.dx.length() + footprint.jacobian.dy.length();
+    let reach = 2.0 * (width * radius.max(1.0) + source.texel_pitch);
+    source.reaches(footprint.direction, reach).then(|| Seen::new(source, footprint))?
+}
