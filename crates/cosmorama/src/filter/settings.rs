@@ -126,9 +126,7 @@ impl FilterSettings {
             // A texel of the coarser level is at most as wide as a pixel. The kernel grows by its floor in such texels,
             // and by one texel for interpolation.
             FilterKind::EwaPyramid => Kernel { scale: kernel.scale + kernel.floor + 1.0, ..kernel },
-            FilterKind::Classic(_) => {
-                Kernel { scale: Classic::REACH.scale.max(kernel.scale * kernel.radius()), ..Classic::REACH }
-            }
+            FilterKind::Classic(classic) => classic.with(kernel).reaching_kernel(),
             FilterKind::Ewa
             | FilterKind::Point
             | FilterKind::Bilinear

@@ -65,7 +65,7 @@ mod tests {
         assert!((width - 1.6).abs() < 0.02, "{width}");
     }
 
-    /// Bright on both sides of the middle at once: a bin is as bright as the one before.
+    /// Checks an edge that is bright on both sides of the middle: there a bin is as bright as the one before.
     #[test]
     fn an_edge_beside_its_place_has_a_width() {
         let image = Image::from_fn(1600, 1, |i, _| Rgba::opaque(0.0, 0.0, if i < 750 { 0.0 } else { 1.0 }));

@@ -35,12 +35,12 @@ fn aliases(Probe { frequency: [x, y], texels, .. }: &Probe) -> bool {
 mod tests {
     use super::*;
 
-    /// Probes of one frequency, in a row.
+    /// Returns probes of one frequency, in a row.
     fn probes(frequency: [f64; 2], texels: f64) -> Vec<Probe> {
         (0..100).map(|pixel| Probe { pixel, frequency, from_edge: 0.0, rises: true, texels }).collect()
     }
 
-    /// A grating of an amplitude, in two phases.
+    /// Draws a grating of an amplitude, in two phases.
     fn grating(amplitude: f32) -> Image<Rgba> {
         Image::from_fn(100, 1, |i, _| {
             let (sin, cos) = (i as f32 * 0.7).sin_cos();

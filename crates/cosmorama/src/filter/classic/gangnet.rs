@@ -36,4 +36,8 @@ impl Weighing for Gangnet {
     fn kernel(&self) -> Option<Kernel> {
         Some(self.0.kernel())
     }
+
+    fn reach(&self) -> f64 {
+        self.0.radius()
+    }
 }

@@ -22,4 +22,9 @@ pub(super) trait Method {
     fn kernel(&self) -> Option<Kernel> {
         None
     }
+
+    /// Returns the greatest offset along a side of a footprint, in pixels, of a texel that counts.
+    fn reach(&self) -> f64 {
+        1.0
+    }
 }

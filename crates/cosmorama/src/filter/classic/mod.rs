@@ -103,10 +103,6 @@ impl Classic {
     pub fn with(self, kernel: Kernel) -> WeighedClassic {
         WeighedClassic { classic: self, kernel }
     }
-
-    /// A kernel that reaches all texels that any of the filters reads for a pixel: the coarser of two levels has texels of
-    /// two pixels, and is interpolated over one more.
-    pub(crate) const REACH: Kernel = Kernel { scale: 2.0, ..Kernel::ADAPTIVE };
 }
 
 /// A filter of the literature with the kernel that it weighs by on the screen, if it has the choice.
@@ -129,6 +125,12 @@ impl WeighedClassic {
     /// shape of its own.
     pub fn shape(&self) -> Option<Kernel> {
         self.method().kernel()
+    }
+
+    /// Returns a kernel that reaches all texels that are read for a pixel. Of two levels, the coarser has texels of two pixels,
+    /// and is interpolated over one more.
+    pub(crate) fn reaching_kernel(&self) -> Kernel {
+        Kernel { scale: self.method().reach().max(2.0), ..Kernel::ADAPTIVE }
     }
 
     /// Prepares the filter for texels in the order of a world's light, all of them finite.

@@ -18,6 +18,11 @@ pub(in crate::filter::classic) trait Region: Send + Sync {
     fn kernel(&self) -> Option<Kernel> {
         None
     }
+
+    /// Returns the greatest offset along a side of the footprint, in pixels, of a texel that counts.
+    fn reach(&self) -> f64 {
+        self.kernel().map_or(1.0, |kernel| kernel.radius() * kernel.scale)
+    }
 }
 
 /// A footprint as one view sees it.
@@ -130,13 +135,15 @@ pub(in crate::filter::classic) trait Weighing: Send + Sync {
 
     /// Returns the kernel by which it weighs on the screen; `None` if it has a shape of its own.
     fn kernel(&self) -> Option<Kernel>;
+
+    /// Returns the greatest offset along a side of the footprint, in pixels, of a texel that counts.
+    fn reach(&self) -> f64;
 }
 
 impl<R: Region> Weighing for R {
     fn for_each_texel(&self, world: &World, footprint: &Footprint, mut visit: impl FnMut(usize, f64)) {
-        let radius = Region::kernel(self).map_or(1.0, |kernel| kernel.radius() * kernel.scale);
         for source in world.sources() {
-            let Some(seen) = reached(source, footprint, radius) else { continue };
+            let Some(seen) = reached(source, footprint, Region::reach(self)) else { continue };
             self.texels(&seen, |[i, j], weight| {
                 let Some(column) = source.column(i) else { return };
                 let texel = j as usize * source.view.width() + column as usize;
@@ -152,6 +159,10 @@ impl<R: Region> Weighing for R {
     fn kernel(&self) -> Option<Kernel> {
         Region::kernel(self)
     }
+
+    fn reach(&self) -> f64 {
+        Region::reach(self)
+    }
 }
 
 impl<W: Weighing + 'static> Method for W {
@@ -161,6 +172,10 @@ impl<W: Weighing + 'static> Method for W {
 
     fn kernel(&self) -> Option<Kernel> {
         Weighing::kernel(self)
+    }
+
+    fn reach(&self) -> f64 {
+        Weighing::reach(self)
     }
 }
 
@@ -197,13 +212,13 @@ impl<W: Weighing> Prepared for Weighed<'_, W> {
     }
 }
 
-/// Returns how a view sees a footprint whose kernel has this radius, in pixels; `None` if it shows nothing near it.
+/// Returns how a view sees a footprint of which so many pixels count; `None` if it shows nothing near it.
 pub(in crate::filter::classic) fn reached<'a>(
     source: &'a Source,
     footprint: &'a Footprint,
-    radius: f64,
+    pixels: f64,
 ) -> Option<Seen<'a>> {
     let width = footprint.jacobian.dx.length() + footprint.jacobian.dy.length();
-    let reach = 2.0 * (width * radius.max(1.0) + source.texel_pitch);
+    let reach = 2.0 * (width * pixels.max(1.0) + source.texel_pitch);
     source.reaches(footprint.direction, reach).then(|| Seen::new(source, footprint))?
 }
