@@ -27,4 +27,8 @@ impl Region for Catmull {
     fn kernel(&self) -> Option<Kernel> {
         Some(Kernel::uniform(CrossSection::Box))
     }
+
+    fn reach(&self) -> f64 {
+        0.5
+    }
 }

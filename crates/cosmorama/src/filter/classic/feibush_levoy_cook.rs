@@ -1,7 +1,7 @@
 use glam::{DMat2, DMat3, DVec2, DVec3};
 
 use super::weighing::{Region, ScreenKernel, Seen, columns_at};
-use crate::camera::{Footprint, View};
+use crate::camera::View;
 use crate::filter::Kernel;
 
 /// Texels in the quadrilateral around the kernel, each mapped to the screen and weighed there by a table (Feibush, Levoy &
@@ -45,7 +45,7 @@ enum ToScreen<'a> {
 
 impl<'a> ToScreen<'a> {
     fn of(seen: &'a Seen, widened: DMat2) -> Self {
-        let screen = if widened == seen.jacobian { screen(seen.footprint) } else { None };
+        let screen = if widened == seen.jacobian { seen.screen() } else { None };
         let view = &seen.source.view;
         match (screen, view.rays()) {
             (Some(screen), Some(rays)) => Self::Projective(screen * rays),
@@ -85,34 +85,4 @@ impl<'a> ToScreen<'a> {
 fn affine(place: DVec2, linear: DMat2) -> DMat3 {
     let offset = -(linear * place);
     DMat3::from_cols(linear.x_axis.extend(0.0), linear.y_axis.extend(0.0), offset.extend(1.0))
-}
-
-/// Returns the matrix from a direction to the plane that touches the sphere in a footprint's middle, in pixels, times the
-/// depth before it. `None` for a footprint that spans nothing.
-fn screen(footprint: &Footprint) -> Option<DMat3> {
-    let (middle, jacobian) = (footprint.direction.vector(), &footprint.jacobian);
-    let normal = jacobian.dx.cross(jacobian.dy);
-    let square = normal.length_squared();
-    let across = |side: DVec3| (side / square).reject_from_normalized(middle);
-    let rows = [across(jacobian.dy.cross(normal)), across(normal.cross(jacobian.dx)), middle];
-    (square > 0.0).then(|| DMat3::from_cols_array_2d(&rows.map(|row| row.to_array())).transpose())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::sphere::Direction;
-
-    #[test]
-    fn the_screen_is_where_derivatives_point() {
-        let (right, up) = Direction::FRONT.vector().any_orthonormal_pair();
-        let footprint = Footprint::new(Direction::FRONT, right * 0.02 + up * 0.01, up * 0.03 - right * 0.005);
-        let screen = screen(&footprint).expect("a footprint with an area");
-        for (x, y) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (-0.7, 0.4)] {
-            let there = Direction::FRONT.vector() + footprint.jacobian.dx * x + footprint.jacobian.dy * y;
-            // However long the vector is.
-            let at = screen * (there * 7.0);
-            assert!((at.truncate() / at.z).distance(DVec2::new(x, y)) < 1e-12, "({x}, {y}): {at}");
-        }
-    }
 }

@@ -70,33 +70,39 @@ fn across_edges_filters_are_sums_by_solid_angle() {
     let round: Shape = |at| if at.length_squared() < 1.0 { (-2.0 * at.length_squared()).exp() } else { 0.0 };
     let square: Shape = |at| f64::from(u8::from(at.abs().max_element() < 0.5));
     let pyramid: Shape = |at| (1.0 - at.x.abs()).max(0.0) * (1.0 - at.y.abs()).max(0.0);
+    let mut are_near = true;
     // Derivatives are those of the middle: over a pixel of a tenth or a fifth of a radian, a face's mapping bends.
     for (classic, shape, bounds) in [
         (Classic::FeibushLevoyCook, round, [0.005, 0.01]),
-        (Classic::EwaPaper, round, [0.02, 0.04]),
-        (Classic::EwaInteger, round, [0.02, 0.04]),
-        (Classic::Gangnet, round, [0.02, 0.04]),
-        (Classic::Catmull, square, [0.02, 0.04]),
-        (Classic::BlinnNewell, pyramid, [0.03, 0.06]),
+        (Classic::EwaPaper, round, [0.04, 0.06]),
+        (Classic::EwaInteger, round, [0.04, 0.06]),
+        (Classic::Gangnet, round, [0.04, 0.06]),
+        (Classic::Catmull, square, [0.04, 0.06]),
+        (Classic::BlinnNewell, pyramid, [0.06, 0.1]),
     ] {
         let prepared = classic.prepare(&world, &light).expect("light of the world");
         for (shrink, bound) in [4.0, 8.0].into_iter().zip(bounds) {
-            for footprint in across_edges(shrink / 32.0) {
+            let error = |footprint: Footprint| {
                 let (mut sum, mut weights) = (0.0, 0.0);
-                let screen = |there: DVec3| {
-                    let aside = there / there.dot(footprint.direction.vector()) - footprint.direction.vector();
-                    footprint.jacobian.pseudo_inverse(aside).expect("an area")
-                };
-                for (texel, direction, solid_angle) in parts_of_texels(&world, footprint.direction) {
-                    let weight = shape(screen(direction)) * solid_angle;
+                for (texel, there, solid_angle) in parts_of_texels(&world, footprint.direction) {
+                    let weight = shape(on_screen(&footprint, there)) * solid_angle;
                     sum += weight * f64::from(light.texels()[texel].0[0]);
                     weights += weight;
                 }
-                let (found, expected) = (f64::from(prepared.average(&footprint).0[0]), sum / weights);
-                assert!((found - expected).abs() < bound, "{classic:?}, {shrink}: {found} for {expected}");
-            }
+                (f64::from(prepared.average(&footprint).0[0]) - sum / weights).abs()
+            };
+            let greatest = across_edges(shrink / 32.0).map(error).fold(0.0, f64::max);
+            println!("{classic:?}, shrunk {shrink} times: {greatest:.4}");
+            are_near &= greatest < bound;
         }
     }
+    assert!(are_near, "some filter is farther from its sum than it may be");
+}
+
+/// Offset on the plane that touches the sphere in a footprint's middle, in pixels.
+fn on_screen(footprint: &Footprint, there: DVec3) -> DVec2 {
+    let middle = footprint.direction.vector();
+    footprint.jacobian.pseudo_inverse(there / there.dot(middle) - middle).expect("an area")
 }
 
 /// Footprints of a width in radians on edges, at corners and beside them.

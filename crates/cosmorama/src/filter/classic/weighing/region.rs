@@ -1,4 +1,4 @@
-use glam::{DMat2, DVec2};
+use glam::{DMat2, DMat3, DVec2, DVec3};
 
 use crate::camera::{Footprint, PixelPoint};
 use crate::filter::Kernel;
@@ -117,6 +117,58 @@ impl<'a> Seen<'a> {
         }
     }
 
+    /// Returns the matrix from a direction to the plane that touches the sphere in the footprint's middle, in pixels, times
+    /// the depth before it. `None` for a footprint that spans nothing.
+    pub(in crate::filter::classic) fn screen(&self) -> Option<DMat3> {
+        let (middle, jacobian) = (self.footprint.direction.vector(), &self.footprint.jacobian);
+        let normal = jacobian.dx.cross(jacobian.dy);
+        let square = normal.length_squared();
+        let across = |side: DVec3| (side / square).reject_from_normalized(middle);
+        let rows = [across(jacobian.dy.cross(normal)), across(normal.cross(jacobian.dx)), middle];
+        (square > 0.0).then(|| DMat3::from_cols_array_2d(&rows.map(|row| row.to_array())).transpose())
+    }
+
+    /// Returns whether the footprint's middle is in the image.
+    fn is_inside(&self) -> bool {
+        let inside = |at: f64, size: usize| at >= 0.0 && at <= size as f64;
+        let view = &self.source.view;
+        (self.source.period.is_some() || inside(self.place.x, view.width())) && inside(self.place.y, view.height())
+    }
+
+    /// Returns how far from the middle a texel may be that counts, in pixels along each side: some more than the reach, and a
+    /// texel.
+    fn farthest(&self, reach: f64) -> DVec2 {
+        let jacobian = &self.footprint.jacobian;
+        let sides = DVec2::new(jacobian.dx.length(), jacobian.dy.length());
+        DVec2::splat(1.2 * reach) + self.source.texel_pitch / sides
+    }
+
+    /// Returns whether the view shows one of a grid of directions around the middle, that far to each side.
+    fn shows_some(&self, farthest: DVec2) -> bool {
+        /// Directions along a side.
+        const SIDE: usize = 9;
+        let at = |k: usize| 2.0 * k as f64 / (SIDE - 1) as f64 - 1.0;
+        let mut places = (0..SIDE * SIDE).map(|k| DVec2::new(at(k % SIDE), at(k / SIDE)) * farthest);
+        places.any(|at| {
+            let there = self.footprint.direction_at(at.x, at.y);
+            there.and_then(|there| self.source.view.pixel(there)).is_some_and(|pixel| self.source.shows(pixel))
+        })
+    }
+
+    /// Returns the test of which texels count. Where the middle lies beyond a view's edge, derivatives place some near that are
+    /// far away, and each is mapped exactly.
+    fn nearness(&self, reach: f64) -> impl Fn([i64; 2]) -> bool {
+        let exact = if self.is_inside() { None } else { self.screen() };
+        let farthest = self.farthest(reach);
+        move |texel| {
+            let Some(screen) = exact else { return true };
+            self.source.view.direction(Self::centre(texel)).is_some_and(|direction| {
+                let at = screen * direction.vector();
+                at.z > 0.0 && at.truncate().abs().cmple(farthest * at.z).all()
+            })
+        }
+    }
+
     /// Returns the offset of a texel's centre from the footprint's middle.
     pub(in crate::filter::classic) fn offset(&self, [i, j]: [i64; 2]) -> DVec2 {
         DVec2::new(i as f64 + 0.5, j as f64 + 0.5) - self.place
@@ -144,8 +196,9 @@ impl<R: Region> Weighing for R {
     fn for_each_texel(&self, world: &World, footprint: &Footprint, mut visit: impl FnMut(usize, f64)) {
         for source in world.sources() {
             let Some(seen) = reached(source, footprint, Region::reach(self)) else { continue };
+            let is_near = seen.nearness(Region::reach(self));
             self.texels(&seen, |[i, j], weight| {
-                let Some(column) = source.column(i) else { return };
+                let Some(column) = source.column(i).filter(|_| is_near([i, j])) else { return };
                 let texel = j as usize * source.view.width() + column as usize;
                 // Views that show one direction share it, so that nothing counts twice where they meet.
                 let weight = weight * f64::from(source.solid_angles[texel]);
@@ -220,5 +273,33 @@ pub(in crate::filter::classic) fn reached<'a>(
 ) -> Option<Seen<'a>> {
     let width = footprint.jacobian.dx.length() + footprint.jacobian.dy.length();
     let reach = 2.0 * (width * pixels.max(1.0) + source.texel_pitch);
-    source.reaches(footprint.direction, reach).then(|| Seen::new(source, footprint))?
+    let seen = source.reaches(footprint.direction, reach).then(|| Seen::new(source, footprint))??;
+    (seen.is_inside() || seen.shows_some(seen.farthest(pixels))).then_some(seen)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::CameraModel;
+    use crate::sphere::Direction;
+
+    fn world() -> World {
+        let view = CameraModel::Equirect(Default::default()).view(64, 32).expect("a panorama");
+        World::new([("all".to_owned(), view)]).expect("one view")
+    }
+
+    #[test]
+    fn the_screen_is_where_derivatives_point() {
+        let world = world();
+        let (right, up) = Direction::FRONT.vector().any_orthonormal_pair();
+        let footprint = Footprint::new(Direction::FRONT, right * 0.02 + up * 0.01, up * 0.03 - right * 0.005);
+        let seen = Seen::new(&world.sources()[0], &footprint).expect("in the middle of the picture");
+        let screen = seen.screen().expect("a footprint with an area");
+        for (x, y) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (-0.7, 0.4)] {
+            let there = Direction::FRONT.vector() + footprint.jacobian.dx * x + footprint.jacobian.dy * y;
+            // However long the vector is.
+            let at = screen * (there * 7.0);
+            assert!((at.truncate() / at.z).distance(DVec2::new(x, y)) < 1e-12, "({x}, {y}): {at}");
+        }
+    }
 }
