@@ -3,11 +3,13 @@
 use glam::DVec3;
 use thiserror::Error;
 
-use super::classic::LEAST_BITS;
 use crate::camera::Footprint;
 use crate::raster::Rgba;
 use crate::sphere::{Direction, DirectionJacobian};
 use crate::world::{Light, LightError, World};
+
+/// Bits that a prepared picture must keep of the brightest texel's light, times its solid angle.
+pub(crate) const LEAST_BITS: u32 = 24;
 
 /// Reason why a filter cannot be prepared.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]

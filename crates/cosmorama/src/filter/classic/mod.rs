@@ -15,7 +15,6 @@ mod two_pass;
 mod weighing;
 
 pub use prefiltered::IntegrationOrder;
-pub(crate) use prefiltered::LEAST_BITS;
 
 use super::Kernel;
 use super::traits::{Filter, PrepareError, Prepared, SetupCost};

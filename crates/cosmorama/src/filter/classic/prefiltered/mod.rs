@@ -6,6 +6,5 @@ mod summed_area;
 
 pub(super) use mipmap::MipMap;
 pub use repeated_integration::IntegrationOrder;
-pub(crate) use repeated_integration::LEAST_BITS;
 pub(super) use repeated_integration::RepeatedIntegration;
 pub(super) use summed_area::SummedArea;

@@ -6,7 +6,7 @@ use crate::camera::Footprint;
 use crate::filter::classic::method::Method;
 use crate::filter::classic::weighing::reached;
 use crate::filter::reference::look;
-use crate::filter::traits::{PrepareError, Prepared, SetupCost, bounded};
+use crate::filter::traits::{LEAST_BITS, PrepareError, Prepared, SetupCost, bounded};
 use crate::raster::Rgba;
 use crate::world::{Source, World};
 
@@ -43,9 +43,6 @@ impl IntegrationOrder {
         self.0
     }
 }
-
-/// Bits that must be kept of the brightest texel's light, times its solid angle.
-pub(crate) const LEAST_BITS: u32 = 24;
 
 impl Method for RepeatedIntegration {
     fn prepare<'w>(self: Box<Self>, world: &'w World, light: &'w [Rgba]) -> Box<dyn Prepared + 'w> {

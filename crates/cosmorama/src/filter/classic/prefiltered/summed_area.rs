@@ -16,7 +16,8 @@ use crate::world::{Source, World};
 /// f64. Each of the additions down a column is rounded by at most 2⁻⁵³ of the whole sum: in a picture of 16384² texels the
 /// four look-ups of a rectangle are right to 4 · 2¹⁴ · 2²⁸ · 2⁻⁵³ = 2⁻⁹ of the mean light of a texel, and to some 2⁻¹⁷ as
 /// roundings cancel. So it is the mean that counts: where a picture is a thousand times darker than its mean, as a night sky
-/// is beside its sun, a rectangle of one texel is right to a hundredth there. Larger rectangles are right to as much less.
+/// is beside its sun, a rectangle of one texel is right to a hundredth there, and at worst to twice its light. Larger ones are
+/// as much more exact.
 pub(in crate::filter::classic) struct SummedArea;
 
 impl Method for SummedArea {
