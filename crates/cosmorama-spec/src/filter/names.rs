@@ -80,14 +80,15 @@ const FILTER_WORDS: [(&str, &str); 15] = [
     ("samples", "reference"),
 ];
 
-/// Returns a filter's name with the key that it takes, if any.
-fn with_key(name: &str) -> &str {
-    match name {
+/// Returns a filter's name with the key that it takes, if any; `None` of one that is another with a key.
+fn with_key(name: &str) -> Option<&str> {
+    Some(match name {
         "reference" => "reference[:samples=N]",
         "mipmap" => "mipmap[:levels=nearest|trilinear]",
+        "mipmap:levels=nearest" => return None,
         "repeated-integration" => "repeated-integration[:order=N]",
         name => name,
-    }
+    })
 }
 
 /// Returns the keys that a filter takes, or else all that there are.
@@ -120,7 +121,7 @@ pub(super) fn no_filter(text: &str) -> WordError {
             what: WordKind::Filter,
             word,
             meant: meant.map(Meant::name),
-            known: names.map(with_key).join(", "),
+            known: names.into_iter().filter_map(with_key).collect::<Vec<_>>().join(", "),
         },
     }
 }

@@ -62,10 +62,10 @@ macro_rules! classics {
 }
 
 classics! {
-    /// The nearest square of the nearest level of a pyramid (Dungan, Stenger & Sutty 1978).
-    NearestMipMap = "mipmap:levels=nearest", "Squares of the nearest level (Dungan, Stenger, Sutty)", |_| MipMap::Nearest;
     /// Squares averaged beforehand, interpolated on two levels of a pyramid (Williams 1983).
     MipMap = "mipmap", "Williams' trilinear pyramid of squares (:levels=nearest|trilinear)", |_| MipMap::Trilinear;
+    /// The nearest square of the nearest level of a pyramid (Dungan, Stenger & Sutty 1978).
+    NearestMipMap = "mipmap:levels=nearest", "Squares of the nearest level (Dungan, Stenger, Sutty)", |_| MipMap::Nearest;
     /// Rectangles by a table of sums (Crow 1984).
     SummedArea = "summed-area", "Crow's rectangles by a table of sums", |_| SummedArea;
     /// Smooth splines over an upright box, by differences in a picture that is integrated several times (Perlin; Heckbert
