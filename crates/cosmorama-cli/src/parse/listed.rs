@@ -57,7 +57,7 @@ pub(crate) fn depth() -> Listed<DepthName> {
 
 /// Reads the name of a filter.
 pub(crate) fn filter() -> Listed<FilterName> {
-    Listed::new(FilterName::NAMES)
+    Listed::new(FilterName::NAMES.iter().copied())
 }
 
 /// Reads the name of a kernel.

@@ -3,7 +3,8 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use anyhow::Result;
-use cosmorama_convert::{FilterReport, FilterTrial, check_apart, refuse_existing};
+use cosmorama::laboratory::CROP;
+use cosmorama_convert::{Code, Diagnostic, FilterReport, FilterTrial, check_apart, refuse_existing};
 use cosmorama_io::Format;
 use serde_json::{Value, json};
 
@@ -36,8 +37,14 @@ pub(super) fn run(mut args: FiltersArgs, console: &mut Console) -> Result<ExitCo
     let report = trials.run(&args.filters(), args.truth.as_deref(), &mut watch)?;
     watch.finish();
     report.diagnostics.iter().for_each(|diagnostic| console.warn(diagnostic));
-    if let Some(crops) = &crops {
-        write_picture((crops, Format::Png), &report.sheet, console)?;
+    if crops.is_some() && report.sheet.is_none() {
+        let message =
+            format!("there are no crops: no place of the picture has {CROP}x{CROP} whole pixels; make it larger");
+        console.warn(&Diagnostic::warning(Code::NoEffect, message));
+    }
+    let crops = crops.filter(|_| report.sheet.is_some());
+    if let (Some(crops), Some(sheet)) = (&crops, &report.sheet) {
+        write_picture((crops, Format::Png), sheet, console)?;
     }
     let text = match (args.json, args.csv) {
         (true, _) => json_text(&args, &report, crops.as_deref())?,

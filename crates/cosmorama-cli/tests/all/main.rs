@@ -18,6 +18,7 @@ mod faces {
 
 mod filter {
     mod channels;
+    mod classics;
     mod labels;
     mod laboratory;
     mod light;

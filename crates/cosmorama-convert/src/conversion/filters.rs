@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use cosmorama::camera::View;
 use cosmorama::compare::CompareError;
-use cosmorama::filter::{Filter, FilterKind, FilterSettings, SetupCost};
+use cosmorama::filter::{Filter, FilterKind, FilterSettings, Kernel, SetupCost};
 use cosmorama::laboratory::{Laboratory, Response, Row, busiest, sheet};
 use cosmorama::lighting::Lobe;
 use cosmorama::raster::{ColourMatrix, Depth, Image, Primaries, Rgba};
@@ -16,7 +16,7 @@ use cpu_time::ProcessTime;
 use super::world_light::WorldLight;
 use super::{Observer, Radiance, Work, watched};
 use crate::colour::InputTransfer;
-use crate::diagnostic::{ConvertError, Diagnostic, Outcome, Result, SIZE, TO, bail, usage};
+use crate::diagnostic::{ConvertError, Diagnostic, Outcome, Result, SIZE, TO, usage};
 use crate::input::Builtin;
 use crate::input::spec_files::st_map::settled;
 use crate::settings::{Conversion, LightNormalisation, LightSettings};
@@ -36,7 +36,8 @@ pub struct FilterTrials {
 pub struct FilterTrial {
     /// Filter.
     pub filter: FilterName,
-    /// PSNR of linear light against the reference filter, in decibels; infinite for that itself.
+    /// PSNR of linear light against the reference filter by the same kernel, in decibels: a Gaussian or a box, where the filter
+    /// is made for that, and else the kernel of the settings. Infinite for that reference itself.
     pub to_reference: f64,
     /// PSNR of linear light against a direct render, in decibels.
     pub to_truth: Option<f64>,
@@ -56,14 +57,11 @@ pub struct FilterTrial {
 pub struct FilterReport {
     /// Filters, in the order in which they were asked for.
     pub trials: Vec<FilterTrial>,
-    /// Crops of the same places by each filter, side by side, in linear light.
-    pub sheet: Image<Rgba>,
+    /// Crops of the same places by each filter, side by side, in linear light. `None` of a picture that is too small for any.
+    pub sheet: Option<Image<Rgba>>,
     /// Diagnostics of the input.
     pub diagnostics: Vec<Diagnostic>,
 }
-
-/// Sub-samples along a pixel's side by which the reference is made.
-const SAMPLES: usize = 4;
 
 /// Places of which crops are shown.
 const PLACES: usize = 4;
@@ -193,48 +191,49 @@ impl FilterTrials {
         laboratory: &Laboratory,
         (filters, truth): (&[FilterName], Option<&Image<Rgba>>),
         progress: &dyn Progress,
-    ) -> Result<(Vec<FilterTrial>, Image<Rgba>)> {
+    ) -> Result<(Vec<FilterTrial>, Option<Image<Rgba>>)> {
         let tasks = filters.len() + 1;
         let share = |task: usize| {
             let at = |tasks_done: usize| tasks_done as f64 / tasks as f64;
             Share { whole: progress, from: at(task), to: at(task + 1) }
         };
-        let judge = self.filter(FilterName(FilterKind::Reference { samples: SAMPLES }));
-        let reference = laboratory.picture(&judge, &share(0)).map_err(stopped)?;
-        let places = busiest(&reference, |i, j| laboratory.is_whole(i, j), PLACES);
+        let own = self.filter(FilterName(FilterKind::Ewa));
+        let mut references = References { laboratory, samples: laboratory.samples(), pictures: Vec::new() };
+        let reference = references.of(&own, &share(0))?;
+        let places = busiest(reference, |i, j| laboratory.is_whole(i, j), PLACES);
         let row = |label: &str, picture: &Image<Rgba>| Row::new(vec![label.to_owned()], picture, &places);
         let mut rows: Vec<Row> = truth.map(|truth| row("direct render", truth)).into_iter().collect();
         let is_shown = filters.iter().any(|filter| matches!(filter.0, FilterKind::Reference { .. }));
-        rows.extend((!is_shown).then(|| row("reference", &reference)));
+        rows.extend((!is_shown).then(|| row("reference", reference)));
         let mut trials = Vec::new();
         for (index, filter) in filters.iter().enumerate() {
-            let to = (&reference, truth);
-            let (trial, picture) = self.trial(laboratory, *filter, to, &share(index + 1))?;
+            let (trial, picture) = self.trial(&mut references, *filter, truth, &share(index + 1))?;
             rows.push(Row::new(labels(&trial), &picture, &places));
             trials.push(trial);
         }
-        Ok((trials, sheet(&rows)))
+        Ok((trials, (!places.is_empty()).then(|| sheet(&rows))))
     }
 
     /// Measures one filter. Also returns its picture.
     fn trial(
         &self,
-        laboratory: &Laboratory,
+        references: &mut References,
         name: FilterName,
-        (reference, truth): (&Image<Rgba>, Option<&Image<Rgba>>),
+        truth: Option<&Image<Rgba>>,
         progress: &dyn Progress,
     ) -> Result<(FilterTrial, Image<Rgba>)> {
-        let filter = self.filter(name);
+        let (filter, laboratory) = (self.filter(name), references.laboratory);
+        let share = |from: f64, to: f64| Share { whole: progress, from, to };
         let start = ProcessTime::now();
-        let Ok(prepared) = filter.prepare(laboratory.world(), laboratory.light()) else {
-            bail!("the light is not that of the views")
-        };
+        let prepared = filter.prepare(laboratory.world(), laboratory.light());
+        let prepared = prepared.map_err(|error| usage(format!("{name}: {error}")))?;
         let (setup_seconds, reads) = (start.elapsed().as_secs_f64(), laboratory.reads(&*prepared));
         drop(prepared);
         let start = ProcessTime::now();
-        let picture = laboratory.picture(&filter, &Share { whole: progress, from: 0.0, to: 0.5 }).map_err(stopped)?;
+        let picture = laboratory.picture(&filter, &share(0.0, 0.4)).map_err(stopped)?;
         let cpu_seconds = start.elapsed().as_secs_f64();
-        let response = laboratory.response(&filter, &Share { whole: progress, from: 0.5, to: 1.0 }).map_err(stopped)?;
+        let response = laboratory.response(&filter, &share(0.4, 0.8)).map_err(stopped)?;
+        let reference = references.of(&filter, &share(0.8, 1.0))?;
         let psnr = |to: &Image<Rgba>| laboratory.psnr(&picture, to).map_err(incomparable);
         let trial = FilterTrial {
             filter: name,
@@ -247,6 +246,30 @@ impl FilterTrials {
             reads,
         };
         Ok((trial, picture))
+    }
+}
+
+/// Reference pictures by kernel, each made when the first filter with that kernel is judged.
+struct References<'a> {
+    laboratory: &'a Laboratory<'a>,
+    /// Sub-samples along a pixel's side.
+    samples: usize,
+    pictures: Vec<(Kernel, Image<Rgba>)>,
+}
+
+impl References<'_> {
+    /// Returns the reference by the kernel of a filter.
+    fn of(&mut self, filter: &FilterSettings, progress: &dyn Progress) -> Result<&Image<Rgba>> {
+        let judge = filter.judge(self.samples);
+        let place = match self.pictures.iter().position(|(kernel, _)| *kernel == judge.kernel) {
+            Some(place) => place,
+            None => {
+                let picture = self.laboratory.picture(&judge, progress).map_err(stopped)?;
+                self.pictures.push((judge.kernel, picture));
+                self.pictures.len() - 1
+            }
+        };
+        Ok(&self.pictures[place].1)
     }
 }
 

@@ -350,6 +350,11 @@ impl ConvertJob {
         for frame in self.input.frames.clone() {
             if self.moments(frame)?.is_some() {
                 self.is_blurred = true;
+                if blur.method == BlurMethod::Ellipse && self.filter.kind != FilterKind::Ewa {
+                    let message =
+                        format!("{FILTER} has no effect on what {MOTION} ellipse blurs: that is averaged by ewa");
+                    warnings.push(Diagnostic::warning(Code::NoEffect, message));
+                }
                 if !self.layers.groups.is_empty() && !self.layers.leaves_picture_out() {
                     let message = "channels beside the picture are not blurred, and are those of the frame's own time";
                     warnings.push(Diagnostic::warning(Code::NoEffect, message));

@@ -52,7 +52,8 @@ pub(crate) fn filter(geometry: &GeometrySettings, warnings: &mut Vec<Diagnostic>
     if let FilterKind::Labels(_) = kind {
         return FilterSettings { kind, kernel: Labels::KERNEL, anti_ringing: false };
     }
-    if !kind.uses_kernel() && (kernel != Kernel::ADAPTIVE || geometry.anti_ringing.is_some()) {
+    let is_kernel_idle = kernel != Kernel::ADAPTIVE && !kind.uses_kernel(&kernel);
+    if is_kernel_idle || (geometry.anti_ringing.is_some() && !kind.uses_anti_ringing()) {
         let without = match kind {
             FilterKind::Classic(_) => geometry.filter.to_string(),
             _ => "point and bilinear".to_owned(),

@@ -1,7 +1,8 @@
 use std::fmt;
+use std::ops::RangeInclusive;
 use std::str::FromStr;
 
-use cosmorama::filter::{Classic, FilterKind, LabelRule, MipChoice};
+use cosmorama::filter::{Classic, FilterKind, IntegrationOrder, LabelRule};
 
 use super::names;
 use crate::WordError;
@@ -13,7 +14,7 @@ pub struct FilterName(pub FilterKind);
 
 impl FilterName {
     /// All names with a line of help, in the order of the help.
-    pub const NAMES: [(&str, &str); 16] = names::FILTERS;
+    pub const NAMES: &'static [(&'static str, &'static str)] = &names::FILTERS;
 }
 
 impl fmt::Display for FilterName {
@@ -25,68 +26,62 @@ impl fmt::Display for FilterName {
             FilterKind::Bilinear => f.write_str("bilinear"),
             FilterKind::Labels(LabelRule::Nearest) => f.write_str("labels:nearest"),
             FilterKind::Labels(LabelRule::Vote) => f.write_str("labels:vote"),
-            FilterKind::Classic(Classic::RepeatedIntegration { order }) if order != Classic::USUAL_ORDER => {
-                write!(f, "repeated-integration:order={order}")
+            FilterKind::Classic(Classic::RepeatedIntegration(order)) if order != IntegrationOrder::USUAL => {
+                write!(f, "repeated-integration:order={}", order.get())
             }
-            FilterKind::Classic(classic) => f.write_str(classic_name(classic)),
+            FilterKind::Classic(classic) => f.write_str(classic.name()),
             FilterKind::Reference { samples: SAMPLES } => f.write_str("reference"),
             FilterKind::Reference { samples } => write!(f, "reference:samples={samples}"),
         }
     }
 }
 
-/// Returns the name of a filter of the literature.
-fn classic_name(classic: Classic) -> &'static str {
-    match classic {
-        Classic::MipMap(MipChoice::Trilinear) => "mipmap",
-        Classic::MipMap(MipChoice::Nearest) => "mipmap:levels=nearest",
-        Classic::SummedArea => "summed-area",
-        Classic::RepeatedIntegration { .. } => "repeated-integration",
-        Classic::TwoPass => "two-pass",
-        Classic::Catmull => "catmull",
-        Classic::BlinnNewell => "blinn-newell",
-        Classic::FeibushLevoyCook => "feibush-levoy-cook",
-        Classic::Gangnet => "gangnet",
-        Classic::EwaPaper => "ewa:paper",
-        Classic::EwaInteger => "ewa:integer",
-    }
-}
-
 /// Default number of sub-samples along a pixel's side.
 const SAMPLES: usize = 4;
+
+/// Range of the number of sub-samples along a pixel's side.
+const SAMPLE_RANGE: RangeInclusive<usize> = 1..=64;
 
 impl FromStr for FilterName {
     type Err = WordError;
 
     fn from_str(text: &str) -> Result<Self, WordError> {
-        let samples = |text: &str| text.parse().ok().filter(|samples| (1..=64).contains(samples));
-        if let Some(("repeated-integration", order)) = text.split_once(":order=") {
-            let (least, most) = (Classic::ORDERS.start(), Classic::ORDERS.end());
-            let known = order.parse().ok().filter(|order| Classic::ORDERS.contains(order));
-            return known.map(|order| Self(FilterKind::Classic(Classic::RepeatedIntegration { order }))).ok_or_else(
-                || WordError::Parameter(format!("order={order}: expected a number from {least} to {most}")),
-            );
-        }
-        match text.split_once(":samples=") {
-            Some(("reference", count)) => match samples(count) {
-                Some(samples) => Ok(Self(FilterKind::Reference { samples })),
-                None => Err(WordError::Parameter(format!("samples={count}: expected a number from 1 to 64"))),
+        Ok(Self(match text {
+            "ewa" => FilterKind::Ewa,
+            "ewa-pyramid" => FilterKind::EwaPyramid,
+            "point" => FilterKind::Point,
+            "bilinear" => FilterKind::Bilinear,
+            "labels:nearest" => FilterKind::Labels(LabelRule::Nearest),
+            "labels:vote" => FilterKind::Labels(LabelRule::Vote),
+            "reference" => FilterKind::Reference { samples: SAMPLES },
+            "mipmap:levels=trilinear" => FilterKind::Classic(Classic::MipMap),
+            _ => match Classic::named(text) {
+                Some(classic) => FilterKind::Classic(classic),
+                None => with_number(text)?,
             },
-            _ => match text {
-                "ewa" => Ok(Self(FilterKind::Ewa)),
-                "ewa-pyramid" => Ok(Self(FilterKind::EwaPyramid)),
-                "point" => Ok(Self(FilterKind::Point)),
-                "bilinear" => Ok(Self(FilterKind::Bilinear)),
-                "labels:nearest" => Ok(Self(FilterKind::Labels(LabelRule::Nearest))),
-                "labels:vote" => Ok(Self(FilterKind::Labels(LabelRule::Vote))),
-                "reference" => Ok(Self(FilterKind::Reference { samples: SAMPLES })),
-                _ => {
-                    let named = Classic::ALL.into_iter().find(|classic| classic_name(*classic) == text);
-                    named.map(|classic| Self(FilterKind::Classic(classic))).ok_or_else(|| names::no_filter(text))
-                }
-            },
-        }
+        }))
     }
+}
+
+/// Reads a filter that has a number behind its name.
+fn with_number(text: &str) -> Result<FilterKind, WordError> {
+    if let Some(("reference", count)) = text.split_once(":samples=") {
+        let samples = count.parse().ok().filter(|samples| SAMPLE_RANGE.contains(samples));
+        return samples
+            .map(|samples| FilterKind::Reference { samples })
+            .ok_or_else(|| parameter("samples", count, &SAMPLE_RANGE));
+    }
+    if let Some(("repeated-integration", count)) = text.split_once(":order=") {
+        let order = count.parse().ok().and_then(IntegrationOrder::new);
+        return order
+            .map(|order| FilterKind::Classic(Classic::RepeatedIntegration(order)))
+            .ok_or_else(|| parameter("order", count, &IntegrationOrder::RANGE));
+    }
+    Err(names::no_filter(text))
+}
+
+fn parameter<N: fmt::Display>(key: &str, given: &str, range: &RangeInclusive<N>) -> WordError {
+    WordError::Parameter(format!("{key}={given}: expected a number from {} to {}", range.start(), range.end()))
 }
 
 #[cfg(test)]
@@ -101,16 +96,21 @@ mod tests {
         assert!(refused("nearest").contains("did you mean 'point'?"));
         assert!(refused("ewa-pyramids").contains("did you mean 'ewa-pyramid'?"));
         assert!(refused("sharp").starts_with("unknown filter 'sharp'; there are ewa, ewa-pyramid"));
-        assert!(refused("point:samples=3").contains("only reference takes a key"));
+        assert!(refused("point:samples=3").contains("reference takes samples=N"));
+        assert!(refused("ewa-pyramid:levels=nearest").contains("interpolates between two levels"));
+        assert!(refused("mipmap:levels=3").ends_with("mipmap takes levels=nearest or levels=trilinear"));
+        assert!(refused("ewa:fast").contains("ewa:paper"));
         assert!(refused("repeated-integration:order=9").contains("from 1 to 4"));
         assert!(refused("reference:samples=99").contains("from 1 to 64"));
     }
 
     #[test]
     fn every_name_is_parsed_and_printed() {
-        let names = FilterName::NAMES.map(|(name, _)| name);
-        for name in names.into_iter().chain(["labels:nearest", "labels:vote", "repeated-integration:order=3"]) {
+        let names = FilterName::NAMES.iter().map(|(name, _)| *name);
+        for name in names.chain(["labels:nearest", "labels:vote", "repeated-integration:order=3"]) {
             assert_eq!(name.parse::<FilterName>().unwrap().to_string(), name);
         }
+        let trilinear: FilterName = "mipmap:levels=trilinear".parse().unwrap();
+        assert_eq!(trilinear.to_string(), "mipmap");
     }
 }

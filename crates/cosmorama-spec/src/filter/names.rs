@@ -1,26 +1,31 @@
 //! Names of filters and kernels, and the corresponding words of other programs.
 
+use cosmorama::filter::Classic;
+
 use crate::error::{WordError, WordKind, nearest};
 
-/// Filters, each with a line of help.
-pub(super) const FILTERS: [(&str, &str); 16] = [
+/// Filters that are not of the literature, each with a line of help.
+const OWN: [(&str, &str); 5] = [
     ("ewa", "Elliptical weighted average of all texels under a pixel"),
     ("ewa-pyramid", "The same from smaller copies: bounded time at any shrink, about 40 dB from ewa"),
     ("point", "The texel under a pixel's centre"),
     ("bilinear", "Four texels around a pixel's centre"),
     ("reference", "Brute force, N by N samples a pixel (:samples=N, 1 to 64)"),
-    ("mipmap", "Williams' trilinear pyramid of squares"),
-    ("mipmap:levels=nearest", "Squares of the nearest level (Dungan, Stenger, Sutty)"),
-    ("summed-area", "Crow's rectangles by a table of sums"),
-    ("repeated-integration", "Splines by sums of sums (:order=N, 1 to 4, default 2)"),
-    ("catmull", "Exact areas under the pixel, evenly weighted"),
-    ("blinn-newell", "A pyramid over the parallelogram of a pixel"),
-    ("feibush-levoy-cook", "Texels weighed on the screen by a table"),
-    ("gangnet", "Samples of the screen in a round kernel"),
-    ("two-pass", "Rows first and then columns, each of one dimension"),
-    ("ewa:paper", "EWA as printed in 1986: a Gaussian, finite differences"),
-    ("ewa:integer", "EWA as printed, in integers"),
 ];
+
+/// Number of filters.
+const COUNT: usize = OWN.len() + Classic::NAMES.len();
+
+/// Filters, each with a line of help: our own, and those of the library's table.
+pub(super) const FILTERS: [(&str, &str); COUNT] = {
+    let mut filters = [("", ""); COUNT];
+    let mut k = 0;
+    while k < COUNT {
+        filters[k] = if k < OWN.len() { OWN[k] } else { Classic::NAMES[k - OWN.len()] };
+        k += 1;
+    }
+    filters
+};
 
 /// Kernels, each with a line of help.
 pub(super) const KERNELS: [(&str, &str); 12] = [
@@ -75,12 +80,26 @@ const FILTER_WORDS: [(&str, &str); 15] = [
     ("samples", "reference"),
 ];
 
-/// Returns a filter's name with the key that it takes, if any.
-fn with_key(name: &str) -> &str {
-    match name {
+/// Returns a filter's name with the key that it takes, if any; `None` of one that is another with a key.
+fn with_key(name: &str) -> Option<&str> {
+    Some(match name {
         "reference" => "reference[:samples=N]",
+        "mipmap" => "mipmap[:levels=nearest|trilinear]",
+        "mipmap:levels=nearest" => return None,
         "repeated-integration" => "repeated-integration[:order=N]",
         name => name,
+    })
+}
+
+/// Returns the keys that a filter takes, or else all that there are.
+fn no_such_key(name: &str) -> &'static str {
+    match name {
+        "ewa-pyramid" => "ewa-pyramid takes no key: it always interpolates between two levels",
+        "mipmap" => "mipmap takes levels=nearest or levels=trilinear",
+        _ => {
+            "reference takes samples=N, as in reference:samples=8, repeated-integration order=N, and mipmap \
+             levels=nearest or trilinear; others with a second word are ewa:paper and ewa:integer"
+        }
     }
 }
 
@@ -90,9 +109,7 @@ pub(super) fn no_filter(text: &str) -> WordError {
     let keys = &text[name.len()..];
     let (names, word) = (FILTERS.map(|(name, _)| name), text.to_owned());
     if names.contains(&name) {
-        let keys = "reference takes samples=N, as in reference:samples=8, and repeated-integration order=N; others with a \
-                    second word are mipmap:levels=nearest, ewa:paper and ewa:integer";
-        return WordError::Parameter(format!("'{text}': {keys}"));
+        return WordError::Parameter(format!("'{text}': {}", no_such_key(name)));
     }
     if let Some(kernel) = meaning(&KERNEL_WORDS, name) {
         return of_other(WordKind::Filter, text, WordKind::Kernel, kernel.to_owned());
@@ -104,7 +121,7 @@ pub(super) fn no_filter(text: &str) -> WordError {
             what: WordKind::Filter,
             word,
             meant: meant.map(Meant::name),
-            known: names.map(with_key).join(", "),
+            known: names.into_iter().filter_map(with_key).collect::<Vec<_>>().join(", "),
         },
     }
 }

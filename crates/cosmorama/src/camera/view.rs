@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use glam::{DMat2, DVec2, DVec3};
+use glam::{DMat2, DMat3, DVec2, DVec3};
 
 use super::{FieldStop, Footprint, PixelBounds, PixelGrid, PixelPoint};
 use crate::projection::{Outline, PlanePoint, Projection, ProjectionKind};
@@ -34,6 +34,15 @@ impl View {
     /// Returns whether straight lines stay straight, as in a pinhole camera's picture.
     pub fn is_pinhole(&self) -> bool {
         matches!(self.projection, ProjectionKind::Perspective(_))
+    }
+
+    /// Returns the matrix from (x, y, 1) of a pinhole camera's image to a vector along what is seen there, in the world's
+    /// frame. Its component along the view's axis is one. `None` for other views.
+    pub(crate) fn rays(&self) -> Option<DMat3> {
+        let (first, step) = (self.grid.to_plane(PixelPoint::new(0.0, 0.0)), self.grid.step());
+        let columns = [DVec3::X * step.x, DVec3::NEG_Y * step.y, DVec3::new(first.x, first.y, -1.0)];
+        let [across, down, corner] = columns.map(|column| self.orientation.vector_to_world(column));
+        (self.projection == ProjectionKind::PERSPECTIVE).then(|| DMat3::from_cols(across, down, corner))
     }
 
     /// Returns the number of columns.

@@ -41,11 +41,20 @@ pub struct FilterSettings {
 }
 
 impl FilterKind {
-    /// Returns whether the kernel of [`FilterSettings`] plays a part.
-    pub fn uses_kernel(self) -> bool {
+    /// Returns whether a kernel of [`FilterSettings`] plays a part.
+    pub fn uses_kernel(self, kernel: &Kernel) -> bool {
         match self {
             Self::Ewa | Self::EwaPyramid | Self::Labels(LabelRule::Vote) | Self::Reference { .. } => true,
-            Self::Point | Self::Bilinear | Self::Labels(LabelRule::Nearest) | Self::Classic(_) => false,
+            Self::Point | Self::Bilinear | Self::Labels(LabelRule::Nearest) => false,
+            Self::Classic(classic) => classic.with(*kernel).shape() == Some(*kernel),
+        }
+    }
+
+    /// Returns whether anti-ringing plays a part.
+    pub fn uses_anti_ringing(self) -> bool {
+        match self {
+            Self::Ewa | Self::EwaPyramid | Self::Reference { .. } => true,
+            Self::Point | Self::Bilinear | Self::Labels(_) | Self::Classic(_) => false,
         }
     }
 
@@ -88,7 +97,7 @@ impl FilterSettings {
             FilterKind::EwaPyramid => Box::new(EwaPyramid { kernel, anti_ringing }),
             FilterKind::Point => Box::new(Point),
             FilterKind::Bilinear => Box::new(Bilinear),
-            FilterKind::Classic(classic) => Box::new(classic),
+            FilterKind::Classic(classic) => Box::new(classic.with(kernel)),
             FilterKind::Labels(rule) => Box::new(Labels { rule, kernel }),
             FilterKind::Reference { samples } => Box::new(Reference { samples, kernel, anti_ringing }),
         }
@@ -97,9 +106,17 @@ impl FilterSettings {
     /// Checks that the filter loses no precision over a world.
     ///
     /// # Errors
-    /// When it would: see [`Classic::check`].
+    /// When it would: see [`WeighedClassic::check`](super::WeighedClassic::check).
     pub fn check(&self, world: &World) -> Result<(), PrepareError> {
-        if let FilterKind::Classic(classic) = self.kind { classic.check(world) } else { Ok(()) }
+        if let FilterKind::Classic(classic) = self.kind { classic.with(self.kernel).check(world) } else { Ok(()) }
+    }
+
+    /// Returns the filter by which this one is judged: the reference, by the kernel that this one weighs by on the screen, or
+    /// by that of the settings.
+    #[must_use]
+    pub fn judge(&self, samples: usize) -> Self {
+        let own = if let FilterKind::Classic(classic) = self.kind { classic.with(self.kernel).shape() } else { None };
+        Self { kind: FilterKind::Reference { samples }, kernel: own.unwrap_or(self.kernel), ..*self }
     }
 
     /// Returns a kernel that reaches all texels that are read for a pixel.
@@ -109,7 +126,7 @@ impl FilterSettings {
             // A texel of the coarser level is at most as wide as a pixel. The kernel grows by its floor in such texels,
             // and by one texel for interpolation.
             FilterKind::EwaPyramid => Kernel { scale: kernel.scale + kernel.floor + 1.0, ..kernel },
-            FilterKind::Classic(_) => Classic::REACH,
+            FilterKind::Classic(classic) => classic.with(kernel).reaching_kernel(),
             FilterKind::Ewa
             | FilterKind::Point
             | FilterKind::Bilinear

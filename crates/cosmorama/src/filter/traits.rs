@@ -3,11 +3,13 @@
 use glam::DVec3;
 use thiserror::Error;
 
-use super::classic::Classic;
 use crate::camera::Footprint;
 use crate::raster::Rgba;
 use crate::sphere::{Direction, DirectionJacobian};
 use crate::world::{Light, LightError, World};
+
+/// Bits that a prepared picture must keep of the brightest texel's light, times its solid angle.
+pub(crate) const LEAST_BITS: u32 = 24;
 
 /// Reason why a filter cannot be prepared.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
@@ -15,17 +17,11 @@ pub enum PrepareError {
     /// The light is not that of the world.
     #[error(transparent)]
     Light(#[from] LightError),
-    /// The order of repeated integration is out of range.
-    #[error("repeated integration has an order from {least} to {most}, not {found}", least = Classic::ORDERS.start(), most = Classic::ORDERS.end())]
-    NoSuchOrder {
-        /// Order that was given.
-        found: u32,
-    },
     /// Repeated integration would keep too few bits of the light.
     #[error(
         "repeated integration of order {order} keeps light to one part in 2^{bits} of the brightest over a view of {}x{} texels, and at \
          least 2^{} is asked for; choose a lower order",
-        size[0], size[1], Classic::LEAST_BITS
+        size[0], size[1], LEAST_BITS
     )]
     LosesPrecision {
         /// Order of integration.

@@ -7,15 +7,20 @@ const REACH: f64 = 6.0;
 /// Bins a pixel of the edge's shape.
 const BINS: f64 = 5.0;
 
+/// Brightness up to which an edge is dark, and from which it is bright.
+const DARK: f64 = 0.1;
+const BRIGHT: f64 = 0.9;
+
 /// Returns the width over which edges go from 10 % to 90 %: the edge's shape is the mean of all pixels at one distance, as
 /// the slanted-edge method has it (ISO 12233).
 pub(super) fn width(probes: &[Probe], image: &Image<Rgba>) -> Option<f64> {
     let shape = shape(probes, image);
     let middle = shape.partition_point(|(distance, _)| *distance < 0.0);
-    // From the middle outwards, so that ringing farther out is not taken for the edge.
-    let dark = (0..middle).rev().find(|&at| shape[at].1 < 0.1)?;
-    let bright = (middle..shape.len()).find(|&at| shape[at].1 > 0.9)?;
-    Some(crossing(shape[bright - 1], shape[bright], 0.9) - crossing(shape[dark], shape[dark + 1], 0.1))
+    // From the middle outwards, so that ringing farther out is not taken for the edge; between both it is neither dark nor bright.
+    let dark = (0..middle).rev().find(|&at| shape[at].1 < DARK)?;
+    let bright = (dark + 1..shape.len()).find(|&at| shape[at].1 > BRIGHT)?;
+    let dark = (dark..bright).rev().find(|&at| shape[at].1 < DARK)?;
+    Some(crossing(shape[bright - 1], shape[bright], BRIGHT) - crossing(shape[dark], shape[dark + 1], DARK))
 }
 
 /// Returns the mean brightness at distances from an edge, from dark to bright, where there are pixels.
@@ -43,7 +48,7 @@ mod tests {
     fn probes(width: usize, edge: f64) -> Vec<Probe> {
         let probe = |pixel: usize| Probe {
             pixel,
-            frequency: 0.0,
+            frequency: [0.0; 2],
             from_edge: pixel as f64 * 0.01 - edge,
             rises: true,
             texels: 1.0,
@@ -58,6 +63,14 @@ mod tests {
         let image = Image::from_fn(1600, 1, |i, _| Rgba::opaque(0.0, 0.0, at(i)));
         let width = width(&probes(1600, 8.0), &image).expect("an edge");
         assert!((width - 1.6).abs() < 0.02, "{width}");
+    }
+
+    /// Checks an edge that is bright on both sides of the middle: there a bin is as bright as the one before.
+    #[test]
+    fn an_edge_beside_its_place_has_a_width() {
+        let image = Image::from_fn(1600, 1, |i, _| Rgba::opaque(0.0, 0.0, if i < 750 { 0.0 } else { 1.0 }));
+        let width = width(&probes(1600, 8.0), &image).expect("an edge");
+        assert!(width.is_finite() && width > 0.0 && width < 0.5, "{width}");
     }
 
     #[test]

@@ -13,7 +13,7 @@ mod zone_plate;
 
 use crate::camera::{Footprint, View};
 use crate::compare::{CompareError, Mask, linear_difference};
-use crate::filter::{FilterSettings, Prepared};
+use crate::filter::{FilterSettings, Prepared, semi_axes};
 use crate::raster::{Image, Rgba};
 use crate::render::{Progress, Resampler, Stopped};
 use crate::world::{Light, World};
@@ -39,8 +39,9 @@ pub struct Laboratory<'a> {
 /// Response of a filter to the test pattern.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Response {
-    /// Energy of gratings of half a cycle a pixel to one that is left, of which a picture can hold none, in decibels
-    /// relative to the gratings' own: 0 is all of it. `None` where the texels hold no such gratings: a pixel must have more than one texel each way.
+    /// Energy that is left of gratings of up to one cycle a pixel that a picture cannot hold, of more than half a cycle a pixel
+    /// along rows or along columns, in decibels relative to the gratings' own: 0 is all of it. `None` where the texels hold no such
+    /// gratings: a pixel must have more than one texel each way.
     pub aliasing: Option<f64>,
     /// Width in pixels over which an edge goes from 10 % to 90 %. `None` where the picture is too small for edges, or an
     /// edge takes over six pixels to either side.
@@ -84,14 +85,31 @@ impl<'a> Laboratory<'a> {
 
     /// Returns the mean number of texels, or of entries of tables, that a filter reads for a pixel, over a grid of pixels.
     pub fn reads(&self, prepared: &dyn Prepared) -> f64 {
+        let footprints: Vec<Footprint> = self.footprints().collect();
+        let sum: usize = footprints.iter().map(|footprint| prepared.reads(footprint)).sum();
+        sum as f64 / footprints.len().max(1) as f64
+    }
+
+    /// Returns a number of sub-samples along a pixel's side for the reference: two for each texel of the longest pixel of a
+    /// grid, so that none is missed, but at least 4 and at most 32.
+    pub fn samples(&self) -> usize {
+        let texels = |footprint: Footprint| {
+            let (view, _) = self.world.owner(footprint.direction)?;
+            let (_, jacobian) = self.world.sources()[view].view.texel_footprint(&footprint)?;
+            Some(semi_axes(jacobian)[0])
+        };
+        let longest = self.footprints().filter_map(texels).fold(0.0, f64::max);
+        ((2.0 * longest).ceil() as usize).clamp(4, 32)
+    }
+
+    /// Returns the footprints of a grid of pixels.
+    fn footprints(&self) -> impl Iterator<Item = Footprint> {
         /// Pixels along a side of the grid.
         const SIDE: usize = 32;
         let at = |k: usize, size: usize| (2 * k + 1) * size / (2 * SIDE);
-        let pixels = (0..SIDE * SIDE).map(|k| (at(k % SIDE, self.target.width()), at(k / SIDE, self.target.height())));
-        let footprints: Vec<Footprint> =
-            pixels.filter_map(|(i, j)| Some(self.target.screen_pixel(i, j)?.footprint)).collect();
-        let sum: usize = footprints.iter().map(|footprint| prepared.reads(footprint)).sum();
-        sum as f64 / footprints.len().max(1) as f64
+        let pixels =
+            (0..SIDE * SIDE).map(move |k| (at(k % SIDE, self.target.width()), at(k / SIDE, self.target.height())));
+        pixels.filter_map(|(i, j)| Some(self.target.screen_pixel(i, j)?.footprint))
     }
 
     /// Returns the world.

@@ -26,8 +26,8 @@ const RING: f64 = 24.0;
 pub(super) struct Probe {
     /// Its index in the picture.
     pub(super) pixel: usize,
-    /// Frequency of the zone plate, in cycles a pixel.
-    pub(super) frequency: f64,
+    /// Frequency of the zone plate along rows and along columns, in cycles a pixel.
+    pub(super) frequency: [f64; 2],
     /// Distance outwards from the nearest edge of the rings, in pixels.
     pub(super) from_edge: f64,
     /// Whether the rings become brighter there.
@@ -88,7 +88,9 @@ impl<'a> Pattern<'a> {
         let (_, jacobian) = world.sources()[view].view.texel_footprint(&footprint)?;
         let (from_edge, rises) = ring(distance);
         let [_, texels] = semi_axes(jacobian);
-        Some(Probe { pixel, frequency: distance / self.radius, from_edge, rises, texels })
+        let frequency =
+            [i as f64 + 0.5 - self.middle.x, j as f64 + 0.5 - self.middle.y].map(|at| at.abs() / self.radius);
+        Some(Probe { pixel, frequency, from_edge, rises, texels })
     }
 }
 

@@ -52,7 +52,7 @@ impl Resampler<'_> {
                 self.by_rows(watch, |row| prepared.fill_row(self.target, row))
             }
             FilterKind::Classic(classic) => {
-                let prepared = classic.of_texels(self.world, texels);
+                let prepared = classic.with(self.filter.kernel).of_texels(self.world, texels);
                 self.by_rows(watch, |row| picture::fill_row(&*prepared, self.target, row))
             }
             FilterKind::EwaPyramid => pyramid::render(self, texels, watch),

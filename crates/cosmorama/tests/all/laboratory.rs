@@ -105,13 +105,38 @@ fn a_wide_reflection_cone_touches_five_faces() {
     assert_eq!(cone(&map, axis, half_angle).1, 1);
 }
 
+/// Each has what it is of, more than once: circles, dots, contours, a curve.
 #[test]
 fn figures_are_drawings() {
     let (world, target) = (cube(&CubeFace::ALL, 256, 256), omnimax(400, 292));
     let gaussian = CrossSection::Gaussian { alpha: 2.0, cutoff: 1.0 };
     let q = paraboloid(&world, &target, (70, 120)).expect("inside the frame");
-    for svg in [q, circles(&target), kernel(gaussian, "exp(-2 r²)")] {
+    // Four contours, and a dot for each of 17 × 13 texels; a circle and its dot for each of some 25 × 18 pixels, of which the
+    // frame's rim cuts corners.
+    for (svg, shape, [least, most]) in [
+        (q, "<ellipse", [4 + 17 * 13, 4 + 17 * 13]),
+        (circles(&target), "<ellipse", [2 * 250, 2 * 26 * 19]),
+        // Two axes' ticks with their numbers, both axes' names, the title, and the curve.
+        (kernel(gaussian, "exp(-2 r²)"), "<path", [12, 60]),
+    ] {
         assert!(svg.starts_with("<svg") && svg.ends_with("</svg>\n"), "{svg}");
+        let count = svg.matches(shape).count();
+        assert!((least..=most).contains(&count), "{count} times {shape}");
     }
+    // The curve has all its points.
+    let curve = kernel(gaussian, "exp(-2 r²)");
+    assert!(curve.split("<path").any(|path| path.matches('L').count() == 400), "{curve}");
     assert_eq!(paraboloid(&world, &target, (0, 0)), None, "outside the frame");
+}
+
+/// As many as a pixel is long, twice: none of its texels is missed.
+#[test]
+fn the_reference_takes_two_samples_a_texel() {
+    let light = |world: &World| Light::by_direction(world, |_| Rgba::BLACK);
+    let target = perspective(64, 64, 40.0, 10.0, 20.0, 30.0);
+    for (side, [least, most]) in [(64, [4, 4]), (512, [7, 14]), (2048, [32, 32])] {
+        let world = cube(&CubeFace::ALL, side, side);
+        let samples = Laboratory::new((&world, &light(&world)), &target).samples();
+        assert!((least..=most).contains(&samples), "{side}: {samples}");
+    }
 }

@@ -17,6 +17,7 @@ mod filter {
     mod definitions;
     mod footprint;
     mod labels;
+    mod narrow;
     mod position;
     mod pyramid;
     mod reference;

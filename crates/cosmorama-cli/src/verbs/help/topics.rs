@@ -23,7 +23,7 @@ const PAGES: [(&[&str], &str); 7] = [
 fn list(topic: &str) -> Option<String> {
     Some(match topic.trim_end_matches('s') {
         "kernel" => names("--kernel NAME[:scale=S,floor=F] weighs what a pixel averages", &KernelName::NAMES),
-        "filter" => names("--filter NAME chooses what a pixel averages", &FilterName::NAMES),
+        "filter" => names("--filter NAME chooses what a pixel averages", FilterName::NAMES),
         "transfer" => names("--transfer T is how integer code values relate to light", &TransferName::NAMES),
         "primarie" | "primary" => names("--primaries P are the output's primaries", &PrimariesName::NAMES),
         "depth" => {
@@ -74,7 +74,7 @@ pub(super) fn unknown(topic: &str) -> String {
     let is_kernel = begins || topic.parse::<KernelName>().is_ok();
     let settings = [("filter", topic.parse::<FilterName>().is_ok()), ("kernel", is_kernel)];
     if let Some((setting, _)) = settings.iter().find(|(_, is_one)| *is_one) {
-        return format!("no help on '{topic}' by itself; it is a {setting}: 'cosmorama help {setting}s' lists all");
+        return format!("no help on '{topic}' by itself; it is a {setting}: 'cosmorama help {setting}' lists all");
     }
     let keys = SpecKind::all().flat_map(|kind| kind.own_keys().iter().map(|key| key.name));
     let topics: Vec<&str> =

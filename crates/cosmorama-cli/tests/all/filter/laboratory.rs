@@ -1,6 +1,6 @@
 //! `filters`: every filter on one conversion.
 
-use crate::bench::{Bench, assert_says, picture};
+use crate::bench::{Bench, assert_says, picture, text};
 use serde_json::Value;
 
 const TARGET: [&str; 4] = ["--to", "perspective:fov=60", "--size", "96"];
@@ -58,6 +58,12 @@ fn all_filters_in_one_table_with_crops_side_by_side() {
     assert!(bench.load("lab/crops.png").height() > 16 * 128);
     let args = [&["filters", "face_{face}.png"], &TARGET[..], &["--only", "point", "--output", "lab"]].concat();
     assert_says(&bench.fail(1, &args), &["crops.png", "exist"]);
+    // A picture of no crop's size has none, and says so.
+    let args =
+        ["filters", "face_{face}.png", "--to", "perspective", "--size", "32", "--only", "point", "--output", "none"];
+    let output = bench.run(&args);
+    assert!(output.status.success() && !bench.path("none/crops.png").exists());
+    assert_says(&text(&output.stderr), &["no crops", "64"]);
 }
 
 #[test]
@@ -84,6 +90,21 @@ fn what_cannot_be_compared_is_refused() {
     fail(&["face_{face}.png", "--to", "fulldome", "--json", "--csv"], &["--csv"]);
     fail(&["face_{face}.png", "--to", "fulldome", "--size", "1"], &["--size", "'1'", "16 pixels or more"]);
     fail(&["face_{face}.png", "--to", "fulldome", "--size", "64x9"], &["--size", "64x9", "16 pixels or more"]);
+}
+
+#[test]
+fn figures_are_made() {
+    let bench = Bench::new();
+    bench.succeed(&["figures", "figures"]);
+    for name in ["figure-5.png", "figure-6.png"] {
+        let figure = bench.load(&format!("figures/{name}"));
+        assert!(figure.width() > 400 && figure.height() > 200, "{name}: {} x {}", figure.width(), figure.height());
+    }
+    for name in ["figure-3", "figure-4", "figure-7-screen", "figure-7-texture", "figure-8", "figure-9"] {
+        let svg = text(&bench.bytes(&format!("figures/{name}.svg")));
+        let shapes = ["<path", "<rect", "<ellipse", "<image"].map(|shape| svg.matches(shape).count());
+        assert!(svg.starts_with("<svg") && shapes.iter().sum::<usize>() > 10, "{name}: {shapes:?}");
+    }
 }
 
 #[test]

@@ -181,7 +181,7 @@ fn completions_know_values() {
         }
         // Other programs' names are offered, too.
         assert!(SpecKind::other_names().all(|(name, _)| has(name)), "{shell}");
-        let names = [&FilterName::NAMES[..], &KernelName::NAMES, &TransferName::NAMES].concat();
+        let names = [FilterName::NAMES, &KernelName::NAMES, &TransferName::NAMES].concat();
         for (name, _) in names.iter().filter(|(name, _)| !name.contains(':')) {
             assert!(has(name), "{shell}: {name}");
         }

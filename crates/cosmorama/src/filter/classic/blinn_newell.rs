@@ -1,4 +1,4 @@
-use super::region::{Region, Seen};
+use super::weighing::{Region, Seen};
 
 /// A pyramid over the parallelogram that the pixels around map to: a tent along each side, in the parallelogram's own
 /// frame (Blinn & Newell 1976).

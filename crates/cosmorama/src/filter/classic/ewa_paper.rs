@@ -1,8 +1,7 @@
 use glam::DVec2;
 
-use super::region::{Region, Seen};
-use super::screen_kernel::ScreenKernel;
-use crate::filter::Ellipse;
+use super::weighing::{Region, ScreenKernel, Seen};
+use crate::filter::{Ellipse, Kernel};
 
 /// EWA as the paper prints it: Q by finite differences along the rows of the ellipse's box, and a table of weights over Q
 /// (Greene & Heckbert 1986).
@@ -15,9 +14,9 @@ impl Region for EwaPaper {
     fn texels(&self, seen: &Seen, mut visit: impl FnMut([i64; 2], f64)) {
         let ellipse = Ellipse::new(seen.jacobian, 1.0);
         // A, B, C scaled so that F is the length of WTAB and Q its index.
-        let f = ScreenKernel::LENGTH as f64;
-        let [a, b, c] = [ellipse.a, ellipse.b, ellipse.c].map(|coefficient| coefficient * f);
-        let within = seen.texels_within(ellipse.half_extent(1.0));
+        let (f, scale) = (self.0.length() as f64, self.0.entries_per_unit());
+        let [a, b, c] = [ellipse.a, ellipse.b, ellipse.c].map(|coefficient| coefficient * scale);
+        let within = seen.texels_within(ellipse.half_extent(self.0.radius().powi(2)));
         let first = *within.columns.start();
         for j in within.rows {
             let DVec2 { x: u, y: v } = seen.offset([first, j]);
@@ -31,5 +30,9 @@ impl Region for EwaPaper {
                 dq += 2.0 * a;
             }
         }
+    }
+
+    fn kernel(&self) -> Option<Kernel> {
+        Some(self.0.kernel())
     }
 }

@@ -9,120 +9,140 @@ mod ewa_integer;
 mod ewa_paper;
 mod feibush_levoy_cook;
 mod gangnet;
+mod method;
 mod prefiltered;
-mod region;
-mod screen_kernel;
 mod two_pass;
+mod weighing;
 
-pub use prefiltered::MipChoice;
-
-use std::ops::RangeInclusive;
+pub use prefiltered::IntegrationOrder;
 
 use super::Kernel;
-use super::ewa_pyramid::Levels;
 use super::traits::{Filter, PrepareError, Prepared, SetupCost};
 use crate::raster::Rgba;
 use crate::world::{Light, World};
-use prefiltered::{PreparedIntegrals, PreparedMipMap, PreparedSummedArea, bits_of};
-use region::{Weighed, Weighing};
-use screen_kernel::ScreenKernel;
+use method::Method;
+use prefiltered::{MipMap, RepeatedIntegration, SummedArea};
+use weighing::ScreenKernel;
 
-/// A filter of the literature that EWA is compared with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Classic {
-    /// Squares averaged beforehand, on levels of a pyramid (Dungan, Stenger & Sutty 1978; Williams 1983).
-    MipMap(MipChoice),
+/// Generates [`Classic`] from its table: of each filter the value, its name and a line of help, and the constructor of its
+/// method, which is given the kernel on the screen.
+macro_rules! classics {
+    ($(
+        $(#[$about:meta])*
+        $Variant:ident $(($parameter:ident: $Type:ty = $usual:expr))? = $name:literal, $help:literal, $method:expr;
+    )*) => {
+        /// A filter of the literature that EWA is compared with.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum Classic {
+            $($(#[$about])* $Variant $(($Type))?,)*
+        }
+
+        impl Classic {
+            /// All filters, in the order of the table. One with a parameter has its usual value.
+            pub const ALL: &'static [Self] = &[$(Self::$Variant $(($usual))?,)*];
+
+            /// Names, each with a line of help, in the order of [`Classic::ALL`].
+            pub const NAMES: &'static [(&'static str, &'static str)] = &[$(($name, $help),)*];
+
+            /// Returns the name, without a parameter.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$Variant { .. } => $name,)*
+                }
+            }
+
+            /// Returns the method; a Gaussian is weighed by on the screen if it has the choice.
+            fn method(self, kernel: &Kernel) -> Box<dyn Method> {
+                match self {
+                    $(Self::$Variant $(($parameter))? => made($method, kernel),)*
+                }
+            }
+        }
+    };
+}
+
+classics! {
+    /// Squares averaged beforehand, interpolated on two levels of a pyramid (Williams 1983).
+    MipMap = "mipmap", "Williams' trilinear pyramid of squares (:levels=nearest|trilinear)", |_| MipMap::Trilinear;
+    /// The nearest square of the nearest level of a pyramid (Dungan, Stenger & Sutty 1978).
+    NearestMipMap = "mipmap:levels=nearest", "Squares of the nearest level (Dungan, Stenger, Sutty)", |_| MipMap::Nearest;
     /// Rectangles by a table of sums (Crow 1984).
-    SummedArea,
-    /// Smooth splines over an upright box, by differences in a picture that is integrated `order` times (Perlin; Heckbert
+    SummedArea = "summed-area", "Crow's rectangles by a table of sums", |_| SummedArea;
+    /// Smooth splines over an upright box, by differences in a picture that is integrated several times (Perlin; Heckbert
     /// 1986).
-    RepeatedIntegration {
-        /// Number of boxes that are applied, of [`Classic::ORDERS`]: 1 is a rectangle, 2 a pyramid, 3 nearly a Gaussian.
-        order: u32,
-    },
-    /// Exact areas under the pixel's parallelogram, evenly weighted (Catmull 1974).
-    Catmull,
+    RepeatedIntegration(order: IntegrationOrder = IntegrationOrder::USUAL) =
+        "repeated-integration", "Splines by sums of sums (:order=N, 1 to 4, default 2)", |_| RepeatedIntegration(order);
+    /// Exact areas under the quadrilateral of the pixel's corners, evenly weighted (Catmull 1974).
+    Catmull = "catmull", "Exact areas under the pixel, evenly weighted", |_| catmull::Catmull;
     /// A pyramid over the parallelogram of the pixels around (Blinn & Newell 1976).
-    BlinnNewell,
+    BlinnNewell = "blinn-newell", "A pyramid over the parallelogram of a pixel", |_| blinn_newell::BlinnNewell;
     /// Texels mapped to the screen, and weighed there by a round kernel (Feibush, Levoy & Cook 1980).
-    FeibushLevoyCook,
+    FeibushLevoyCook = "feibush-levoy-cook", "Texels weighed on the screen by a table", feibush_levoy_cook::FeibushLevoyCook;
     /// Samples of the screen mapped to the texels, in a round kernel (Gangnet, Perny & Coueignoux 1982).
-    Gangnet,
-    /// Two passes of one dimension each, along the rows and along the columns (Catmull & Smith 1980).
-    TwoPass,
+    Gangnet = "gangnet", "Samples of the screen in a round kernel", gangnet::Gangnet;
+    /// A model of two passes of one dimension each, along the rows and along the columns (Catmull & Smith 1980).
+    TwoPass = "two-pass", "Rows first and then columns, each of one dimension: a model of both", two_pass::TwoPass;
     /// EWA as printed, with a Gaussian and finite differences (Greene & Heckbert 1986).
-    EwaPaper,
+    EwaPaper = "ewa:paper", "EWA as printed in 1986: a Gaussian, finite differences", ewa_paper::EwaPaper;
     /// EWA in integers, as the paper proposes.
-    EwaInteger,
+    EwaInteger = "ewa:integer", "EWA as printed, in integers", ewa_integer::EwaInteger::new;
+}
+
+fn made<M: Method + 'static>(make: impl FnOnce(ScreenKernel) -> M, kernel: &Kernel) -> Box<dyn Method> {
+    Box::new(make(ScreenKernel::of(kernel)))
 }
 
 impl Classic {
-    /// Orders of repeated integration.
-    pub const ORDERS: RangeInclusive<u32> = 1..=4;
-
-    /// Usual order of repeated integration.
-    pub const USUAL_ORDER: u32 = 2;
-
-    /// All filters, in the order of the paper's table; repeated integration is of its usual order.
-    pub const ALL: [Self; 11] = [
-        Self::MipMap(MipChoice::Nearest),
-        Self::MipMap(MipChoice::Trilinear),
-        Self::SummedArea,
-        Self::RepeatedIntegration { order: Self::USUAL_ORDER },
-        Self::Catmull,
-        Self::BlinnNewell,
-        Self::FeibushLevoyCook,
-        Self::Gangnet,
-        Self::TwoPass,
-        Self::EwaPaper,
-        Self::EwaInteger,
-    ];
-
-    /// Bits that must be kept of the brightest texel's light, times its solid angle.
-    pub(crate) const LEAST_BITS: u32 = 24;
-
-    /// Checks that the filter loses no precision over a world.
-    ///
-    /// # Errors
-    /// For repeated integration of an order that there is not, or over a view that is too large for its order.
-    pub fn check(self, world: &World) -> Result<(), PrepareError> {
-        let Self::RepeatedIntegration { order } = self else { return Ok(()) };
-        if !Self::ORDERS.contains(&order) {
-            return Err(PrepareError::NoSuchOrder { found: order });
-        }
-        let lost = world.sources().iter().find(|source| bits_of(source, order) < Self::LEAST_BITS);
-        lost.map_or(Ok(()), |source| {
-            Err(PrepareError::LosesPrecision {
-                order,
-                size: [source.columns(), source.view.height()],
-                bits: bits_of(source, order),
-            })
-        })
+    /// Returns the filter of a name; one with a parameter has its usual value.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|classic| classic.name() == name)
     }
 
-    /// A kernel that reaches all texels that any of the filters reads for a pixel: the coarser of two levels has texels of
-    /// two pixels, and is interpolated over one more.
-    pub(crate) const REACH: Kernel = Kernel { scale: 2.0, ..Kernel::ADAPTIVE };
-
-    /// Prepares the filter for texels in the order of a world's light, all of them finite.
-    pub(crate) fn of_texels<'w>(self, world: &'w World, light: &'w [Rgba]) -> Box<dyn Prepared + 'w> {
-        let kernel = ScreenKernel::new;
-        match self {
-            Self::MipMap(choice) => Box::new(PreparedMipMap { levels: Levels::new(world, light), choice }),
-            Self::SummedArea => Box::new(PreparedSummedArea::new(world, light)),
-            Self::RepeatedIntegration { order } => Box::new(PreparedIntegrals::new(world, light, order)),
-            Self::TwoPass => over(world, light, two_pass::TwoPass(kernel())),
-            Self::Catmull => over(world, light, catmull::Catmull),
-            Self::BlinnNewell => over(world, light, blinn_newell::BlinnNewell),
-            Self::FeibushLevoyCook => over(world, light, feibush_levoy_cook::FeibushLevoyCook(kernel())),
-            Self::Gangnet => over(world, light, gangnet::Gangnet(kernel())),
-            Self::EwaPaper => over(world, light, ewa_paper::EwaPaper(kernel())),
-            Self::EwaInteger => over(world, light, ewa_integer::EwaInteger::new(&kernel())),
-        }
+    /// Returns the filter with a kernel: a Gaussian is weighed by on the screen, and others have no effect.
+    pub fn with(self, kernel: Kernel) -> WeighedClassic {
+        WeighedClassic { classic: self, kernel }
     }
 }
 
-impl Filter for Classic {
+/// A filter of the literature with the kernel that it weighs by on the screen, if it has the choice.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WeighedClassic {
+    classic: Classic,
+    kernel: Kernel,
+}
+
+impl WeighedClassic {
+    /// Checks that the filter loses no precision over a world.
+    ///
+    /// # Errors
+    /// For repeated integration over a view that is too large for its order.
+    pub fn check(&self, world: &World) -> Result<(), PrepareError> {
+        self.method().check(world)
+    }
+
+    /// Returns the kernel by which the filter weighs on the screen: the Gaussian of its table, or a box; `None` if it has a
+    /// shape of its own.
+    pub fn shape(&self) -> Option<Kernel> {
+        self.method().kernel()
+    }
+
+    /// Returns a kernel that reaches all texels that are read for a pixel. Of two levels, the coarser has texels of two pixels,
+    /// and is interpolated over one more.
+    pub(crate) fn reaching_kernel(&self) -> Kernel {
+        Kernel { scale: self.method().reach().max(2.0), ..Kernel::ADAPTIVE }
+    }
+
+    /// Prepares the filter for texels in the order of a world's light, all of them finite.
+    pub(crate) fn of_texels<'w>(&self, world: &'w World, light: &'w [Rgba]) -> Box<dyn Prepared + 'w> {
+        self.method().prepare(world, light)
+    }
+
+    fn method(&self) -> Box<dyn Method> {
+        self.classic.method(&self.kernel)
+    }
+}
+
+impl Filter for WeighedClassic {
     fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, PrepareError> {
         light.check(world)?;
         self.check(world)?;
@@ -130,22 +150,17 @@ impl Filter for Classic {
     }
 
     fn setup(&self, world: &World) -> SetupCost {
-        let texels = world.texel_count();
-        match self {
-            Self::MipMap(_) => SetupCost { texels, bytes: Levels::bytes(world) },
-            Self::SummedArea => SetupCost { texels, bytes: PreparedSummedArea::bytes(world) },
-            Self::RepeatedIntegration { order } => SetupCost { texels, bytes: PreparedIntegrals::bytes(world, *order) },
-            Self::Catmull
-            | Self::BlinnNewell
-            | Self::FeibushLevoyCook
-            | Self::Gangnet
-            | Self::TwoPass
-            | Self::EwaPaper
-            | Self::EwaInteger => SetupCost::default(),
-        }
+        self.method().setup(world)
     }
 }
 
-fn over<'w, W: Weighing + 'w>(world: &'w World, light: &'w [Rgba], weighing: W) -> Box<dyn Prepared + 'w> {
-    Box::new(Weighed { world, light, weighing })
+/// Weighs by the paper's Gaussian on the screen.
+impl Filter for Classic {
+    fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, PrepareError> {
+        self.with(Kernel::ADAPTIVE).prepare(world, light)
+    }
+
+    fn setup(&self, world: &World) -> SetupCost {
+        self.with(Kernel::ADAPTIVE).setup(world)
+    }
 }

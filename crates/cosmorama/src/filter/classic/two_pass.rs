@@ -1,17 +1,17 @@
 use glam::{DMat2, DVec2};
 
-use super::region::{Region, Seen};
-use super::screen_kernel::ScreenKernel;
+use super::weighing::{Region, ScreenKernel, Seen};
 
-/// Two passes of one dimension each: rows first and then columns, or the other way (Catmull & Smith 1980).
+/// Model of two passes of one dimension each: rows first and then columns, or the other way (Catmull & Smith 1980).
 ///
 /// The first pass averages each row of texels around the line on which the pixel's column lies. The second averages those
-/// means along the column. Whole pictures are made so by two sweeps. Here the footprint's derivatives stand for both
-/// mappings, as they are at its middle: per pixel they are exact, so that no intermediate function has to be inverted or
-/// fitted (Fraser, Schowengerdt & Briggs 1985), and nothing folds over.
+/// means along the column. Here both are composed into one kernel, which is evaluated pixel by pixel: there are no sweeps
+/// and no intermediate picture, so that this shows the quality of two passes, and not their cost. The footprint's
+/// derivatives stand for both mappings. Per pixel they are exact, so that no intermediate function is inverted or fitted
+/// (Fraser, Schowengerdt & Briggs 1985), and nothing can fold over, which real sweeps may have to refuse.
 ///
-/// The intermediate picture has 1/a columns for each column of texels, where a = det J / p. Its bottleneck is a small p:
-/// by the order of passes, and by turning the screen by 90°, p may be any of the four derivatives, and the largest is
+/// An intermediate picture would have 1/a columns for each column of texels, where a = det J / p. Its bottleneck is a small
+/// p: by the order of passes, and by turning the screen by 90°, p may be any of the four derivatives, and the largest is
 /// taken. Then rows are sheared by 45° at most. Here p is the derivative that is left undivided.
 ///
 /// The kernel is its own in each pass, so that it is no disc on the screen but a sheared square. This is what two passes
@@ -52,9 +52,11 @@ const MANY: f64 = 256.0;
 impl Region for TwoPass {
     fn texels(&self, seen: &Seen, mut visit: impl FnMut([i64; 2], f64)) {
         let passes = Passes::of(seen.jacobian);
-        let half = passes.units * ScreenKernel::RADIUS;
+        let half = passes.units * self.0.radius();
         let within = seen.texels_within(passes.turned(half + DVec2::new(passes.shear.abs() * half.y, 0.0)));
         let place = passes.turned(seen.place);
+        // Of very many texels, the sum of weights along a row is the kernel's integral.
+        let integral = (passes.units.x > MANY).then(|| passes.units.x * self.0.integral());
         let (rows, columns) =
             if passes.columns_first { (within.columns, within.rows) } else { (within.rows, within.columns) };
         for row in rows {
@@ -66,11 +68,9 @@ impl Region for TwoPass {
                 continue;
             }
             // The first pass makes a mean of each row: also of texels that the view does not have.
-            let whole: f64 = if passes.units.x > MANY {
-                passes.units.x * ScreenKernel::INTEGRAL
-            } else {
+            let whole = integral.unwrap_or_else(|| {
                 ((middle - half.x).floor() as i64..=(middle + half.x).ceil() as i64).map(weight).sum()
-            };
+            });
             for column in columns.clone() {
                 let part = weight(column);
                 if part > 0.0 && whole > 0.0 {

@@ -4,19 +4,33 @@
 //! recognisable line by line. A test holds the two equal where one view suffices.
 
 use crate::camera::PixelPoint;
+use crate::filter::CrossSection;
 use crate::raster::{Image, Rgba};
 
-/// The paper's WTAB: the Gaussian exp(−α r²) out to r = 1, tabulated over r².
+/// The paper's WTAB: weights tabulated over r², out to the radius of their cross-section.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WeightTable {
     wtab: Vec<f32>,
+    radius: f64,
 }
 
 impl WeightTable {
-    /// Makes a table of `length` entries; the paper uses α = 2.
-    pub fn gaussian(alpha: f64, length: usize) -> Self {
-        let entry = |q: usize| (-alpha * (q as f64 + 0.5) / length as f64).exp() as f32;
-        Self { wtab: (0..length).map(entry).collect() }
+    /// Makes a table of `length` entries, each the weight in the middle of its part; the paper uses a Gaussian of α = 2 out to
+    /// r = 1.
+    pub fn new(section: CrossSection, length: usize) -> Self {
+        let radius = section.radius();
+        let entry = |q: usize| section.weight(((q as f64 + 0.5) / length as f64).sqrt() * radius) as f32;
+        Self { wtab: (0..length).map(entry).collect(), radius }
+    }
+
+    /// Returns the number of entries.
+    pub(crate) fn length(&self) -> usize {
+        self.wtab.len()
+    }
+
+    /// Returns an entry; zero beyond the last.
+    pub(crate) fn entry(&self, q: usize) -> f64 {
+        self.wtab.get(q).map_or(0.0, |weight| f64::from(*weight))
     }
 }
 
@@ -42,7 +56,7 @@ pub fn ewa(image: &Image<Rgba>, centre: PixelPoint, derivatives: TextureDerivati
 
     // The ellipse Q(U, V) = AU² + BUV + CV² < F.
     let (mut a, mut b, mut c) = (vx * vx + vy * vy, -2.0 * (ux * vx + uy * vy), ux * ux + uy * uy);
-    let mut f = (ux * vy - uy * vx).powi(2);
+    let mut f = (table.radius * (ux * vy - uy * vx)).powi(2);
 
     // Its box: Q's extrema along U and V.
     let determinant = a * c - b * b / 4.0;
@@ -106,7 +120,7 @@ mod tests {
             let value = ((i * 37 + j * 101) % 29) as f32 / 29.0;
             Rgba::opaque(value, value, value)
         });
-        let table = WeightTable::gaussian(2.0, 1 << 16);
+        let table = WeightTable::new(CrossSection::Gaussian { alpha: 2.0, cutoff: 1.0 }, 1 << 16);
         for (k, derivatives) in [(3.0, 0.5, -1.0, 2.0), (6.0, 2.5, 1.0, 1.5), (1.5, 0.0, 0.0, 8.0)].iter().enumerate() {
             let &(ux, vx, uy, vy) = derivatives;
             let derivatives = TextureDerivatives { ux, vx, uy, vy };

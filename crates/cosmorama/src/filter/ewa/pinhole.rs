@@ -7,10 +7,9 @@ use glam::{DMat2, DMat3, DVec2, DVec3};
 use super::blocks::{Blocks, LANES, LaneKernel, Weighed, count_up};
 use super::prefetch::prefetch;
 use super::rows::{Conic, Lattice, Row, Rows};
-use crate::camera::{FieldStop, Footprint, PixelPoint};
+use crate::camera::{FieldStop, Footprint};
 use crate::filter::gather::{LINEAR_PART, reach, with_width};
 use crate::filter::{Ellipse, Kernel};
-use crate::projection::ProjectionKind;
 use crate::raster::Rgba;
 use crate::sphere::Direction;
 use crate::world::{Source, World};
@@ -95,21 +94,16 @@ impl Pinholes {
 impl Pinhole {
     fn of(source: &Source) -> Option<Self> {
         let view = &source.view;
-        let is_plain = view.projection == ProjectionKind::PERSPECTIVE
-            && view.stop == FieldStop::NONE
-            && source.mask.is_none()
-            && source.others.is_empty();
-        let (first, step) = (view.grid.to_plane(PixelPoint::new(0.0, 0.0)), view.grid.step());
-        let turned = |x: f64, y: f64, z: f64| view.orientation.vector_to_world(DVec3::new(x, y, z));
-        let [across, down, corner] =
-            [turned(step.x, 0.0, 0.0), turned(0.0, -step.y, 0.0), turned(first.x, first.y, -1.0)];
+        let is_plain = view.stop == FieldStop::NONE && source.mask.is_none() && source.others.is_empty();
+        let rays = view.rays()?;
+        let [across, down, corner] = [rays.x_axis, rays.y_axis, rays.z_axis];
         let size = [view.width(), view.height()];
         let [right, bottom] = size.map(|size| size as f64);
         let axis = (corner + across * (0.5 * right) + down * (0.5 * bottom)).normalize();
         let corners = [[0.0, 0.0], [right, 0.0], [0.0, bottom], [right, bottom]];
         let cosine = |[x, y]: [f64; 2]| (corner + across * x + down * y).normalize().dot(axis);
         let cosine = corners.map(cosine).into_iter().fold(1.0, f64::min);
-        let to_image = DMat3::from_cols(across, down, corner).inverse();
+        let to_image = rays.inverse();
         let cone = [cosine, (1.0 - cosine * cosine).sqrt()];
         is_plain.then_some(Self { across, down, corner, to_image, size, offset: source.offset, axis, cone })
     }

@@ -256,10 +256,10 @@ impl Survey<'_> {
 
     /// Returns whether kernels around a block's pixels touch only texels that are known to be needed.
     fn reads_within(&self, cap: &Cap, needs: &Needs, is_asked: impl Fn(usize) -> bool) -> bool {
-        let (sources, kernel) = (self.world.sources(), &self.filter.kernel);
+        let (sources, kernel) = (self.world.sources(), self.filter.reaching_kernel());
         let coarsest = cap.coarsest_pitch(sources);
         let mut views = sources.iter().zip(&needs.views).enumerate().filter(|(view, _)| is_asked(*view));
-        views.all(|(_, (source, need))| within(cap.read_texels(source, coarsest, kernel), need.read))
+        views.all(|(_, (source, need))| within(cap.read_texels(source, coarsest, &kernel), need.read))
     }
 
     /// Adds all that kernels around a block's pixels can touch.

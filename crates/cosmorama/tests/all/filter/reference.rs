@@ -50,7 +50,7 @@ fn the_paper_is_the_gather_where_one_view_suffices() {
     let image = Image::new(200, 160, light.clone()).expect("as many texels as the view has");
     let kernel = Kernel { floor: 0.0, ..Kernel::uniform(CrossSection::Gaussian { alpha: 2.0, cutoff: 1.0 }) };
     let filter = FilterSettings { kind: FilterKind::Ewa, kernel, anti_ringing: false };
-    let table = WeightTable::gaussian(2.0, 1 << 16);
+    let table = WeightTable::new(CrossSection::Gaussian { alpha: 2.0, cutoff: 1.0 }, 1 << 16);
     let target = perspective(40, 30, 0.4, 0.02, -0.01, 25.0);
     let found = render(&world, &target, filter, &light);
     for j in 0..30 {

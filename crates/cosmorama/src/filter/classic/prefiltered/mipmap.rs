@@ -1,25 +1,35 @@
 use crate::camera::Footprint;
+use crate::filter::classic::method::Method;
 use crate::filter::ewa_pyramid::Levels;
 use crate::filter::lookup;
 use crate::filter::reference::look;
-use crate::filter::traits::{Prepared, bounded};
+use crate::filter::traits::{Prepared, SetupCost, bounded};
 use crate::raster::Rgba;
 use crate::world::World;
 
-/// Choice among the levels of a mip map.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum MipChoice {
+/// Squares of texels, averaged beforehand. A footprint's longer derivative chooses the level, so that what is narrow one
+/// way is blurred that way.
+#[derive(Clone, Copy)]
+pub(in crate::filter::classic) enum MipMap {
     /// The nearest texel of the nearest level (Dungan, Stenger & Sutty 1978).
     Nearest,
     /// Bilinear interpolation on the two levels around, and between them (Williams 1983).
     Trilinear,
 }
 
-/// Squares of texels, averaged beforehand. A footprint's longer derivative chooses the level, so that what is narrow one
-/// way is blurred that way.
-pub(in crate::filter::classic) struct PreparedMipMap<'w> {
-    pub(in crate::filter::classic) levels: Levels<'w>,
-    pub(in crate::filter::classic) choice: MipChoice,
+impl Method for MipMap {
+    fn prepare<'w>(self: Box<Self>, world: &'w World, light: &'w [Rgba]) -> Box<dyn Prepared + 'w> {
+        Box::new(PreparedMipMap { levels: Levels::new(world, light), choice: *self })
+    }
+
+    fn setup(&self, world: &World) -> SetupCost {
+        SetupCost { texels: world.texel_count(), bytes: Levels::bytes(world) }
+    }
+}
+
+struct PreparedMipMap<'w> {
+    levels: Levels<'w>,
+    choice: MipMap,
 }
 
 impl PreparedMipMap<'_> {
@@ -42,8 +52,8 @@ impl Prepared for PreparedMipMap<'_> {
         let Some(footprint) = bounded(footprint) else { return 0 };
         let level = self.level(&footprint);
         match self.choice {
-            MipChoice::Nearest => 1,
-            MipChoice::Trilinear => {
+            MipMap::Nearest => 1,
+            MipMap::Trilinear => {
                 let levels = level as usize..=level.ceil() as usize;
                 levels.map(|level| lookup::reads(self.levels.get(level).0, footprint.direction)).sum()
             }
@@ -54,13 +64,13 @@ impl Prepared for PreparedMipMap<'_> {
         let Some(footprint) = bounded(footprint) else { return Rgba::TRANSPARENT };
         let level = self.level(&footprint);
         match self.choice {
-            MipChoice::Nearest => {
+            MipMap::Nearest => {
                 let (world, light) = self.levels.get(level.round() as usize);
                 let mut found = Rgba::TRANSPARENT;
                 lookup::nearest(world, footprint.direction, |texel, _| found = light[texel as usize]);
                 found
             }
-            MipChoice::Trilinear => {
+            MipMap::Trilinear => {
                 let (finer, part) = (level as usize, level.fract() as f32);
                 let at = |level| {
                     let (world, light) = self.levels.get(level);

@@ -4,7 +4,7 @@ mod mipmap;
 mod repeated_integration;
 mod summed_area;
 
-pub use mipmap::MipChoice;
-pub(super) use mipmap::PreparedMipMap;
-pub(super) use repeated_integration::{PreparedIntegrals, bits_of};
-pub(super) use summed_area::PreparedSummedArea;
+pub(super) use mipmap::MipMap;
+pub use repeated_integration::IntegrationOrder;
+pub(super) use repeated_integration::RepeatedIntegration;
+pub(super) use summed_area::SummedArea;

@@ -1,9 +1,12 @@
+use std::ops::RangeInclusive;
+
 use rayon::prelude::*;
 
 use crate::camera::Footprint;
-use crate::filter::classic::region::reached;
+use crate::filter::classic::method::Method;
+use crate::filter::classic::weighing::reached;
 use crate::filter::reference::look;
-use crate::filter::traits::{Prepared, bounded};
+use crate::filter::traits::{LEAST_BITS, PrepareError, Prepared, SetupCost, bounded};
 use crate::raster::Rgba;
 use crate::world::{Source, World};
 
@@ -17,7 +20,60 @@ use crate::world::{Source, World};
 /// Sums are integers of 128 bits that wrap around. A difference of sums is exact as long as it fits itself, however often
 /// the sums have wrapped (Hogenauer 1981). So nothing is lost but the rounding of each texel's light, to one part in
 /// 2^b of the brightest: see [`bits_of`].
-pub(in crate::filter::classic) struct PreparedIntegrals<'w> {
+pub(in crate::filter::classic) struct RepeatedIntegration(pub(in crate::filter::classic) IntegrationOrder);
+
+/// Order of repeated integration: the number of boxes that are applied. 1 is a rectangle, 2 a pyramid, 3 nearly a Gaussian.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct IntegrationOrder(u32);
+
+impl IntegrationOrder {
+    /// Least and greatest order.
+    pub const RANGE: RangeInclusive<u32> = 1..=4;
+
+    /// Usual order.
+    pub const USUAL: Self = Self(2);
+
+    /// Returns an order; `None` if it is out of [`IntegrationOrder::RANGE`].
+    pub fn new(order: u32) -> Option<Self> {
+        Self::RANGE.contains(&order).then_some(Self(order))
+    }
+
+    /// Returns the number of boxes.
+    pub fn get(self) -> u32 {
+        self.0
+    }
+}
+
+impl Method for RepeatedIntegration {
+    fn prepare<'w>(self: Box<Self>, world: &'w World, light: &'w [Rgba]) -> Box<dyn Prepared + 'w> {
+        let table = |source: &Source| Table::new(source, &light[source.texels()], self.0.get());
+        Box::new(PreparedIntegrals { world, light, tables: world.sources().iter().map(table).collect() })
+    }
+
+    fn setup(&self, world: &World) -> SetupCost {
+        let order = self.0.get() as usize;
+        let of = |source: &Source| {
+            let turns = if source.period.is_some() { 2 } else { 1 };
+            (turns * source.columns() + order) * (source.view.height() + order)
+        };
+        let entries: usize = world.sources().iter().map(of).sum();
+        SetupCost { texels: world.texel_count(), bytes: entries * size_of::<Sums>() }
+    }
+
+    fn check(&self, world: &World) -> Result<(), PrepareError> {
+        let order = self.0.get();
+        let lost = world.sources().iter().find(|source| bits_of(source, order) < LEAST_BITS);
+        lost.map_or(Ok(()), |source| {
+            Err(PrepareError::LosesPrecision {
+                order,
+                size: [source.columns(), source.view.height()],
+                bits: bits_of(source, order),
+            })
+        })
+    }
+}
+
+struct PreparedIntegrals<'w> {
     world: &'w World,
     light: &'w [Rgba],
     tables: Vec<Table>,
@@ -33,7 +89,7 @@ const ROOM: u32 = 126;
 const FINEST: u32 = 40;
 
 /// Returns the bits of a texel's light in the integrals of an order: what a kernel as large as the picture leaves.
-pub(in crate::filter::classic) fn bits_of(source: &Source, order: u32) -> u32 {
+fn bits_of(source: &Source, order: u32) -> u32 {
     bits_left(source.columns().max(1) * source.view.height().max(1), order)
 }
 
@@ -75,6 +131,12 @@ impl Axis {
     fn widest(self) -> f64 {
         let whole = if self.repeated > 0 { self.texels / self.order } else { self.texels };
         whole.saturating_sub(1).max(1) as f64
+    }
+
+    /// Returns a place, or the nearest from which no box reaches a texel: so binomials of what lies beyond the last texel fit.
+    fn near(self, place: f64) -> f64 {
+        let reach = ((self.order + 1) * (self.texels + 2)) as f64;
+        place.clamp(-reach, self.texels as f64 + reach)
     }
 
     /// Adds a difference of the sums to `steps`: indices with their factors. The boxes end at `end` and are `width` wide.
@@ -200,8 +262,8 @@ impl Table {
 }
 
 /// Replaces values by the sums of all before each.
-fn integrate(values: &mut [Sums]) {
-    let mut sum = [0i128; 5];
+fn integrate<const N: usize>(values: &mut [[i128; N]]) {
+    let mut sum = [0i128; N];
     for value in values {
         let next = std::array::from_fn(|k| sum[k].wrapping_add(value[k]));
         *value = sum;
@@ -212,28 +274,15 @@ fn integrate(values: &mut [Sums]) {
 /// Replaces rows by the sums of all rows above each.
 fn integrate_rows(values: &mut [Sums], pitch: usize) {
     let mut sum = vec![[0i128; 5]; pitch];
-    for row in values.chunks_mut(pitch) {
-        for (sum, value) in sum.iter_mut().zip(row) {
-            let next = std::array::from_fn(|k| sum[k].wrapping_add(value[k]));
-            *value = *sum;
-            *sum = next;
-        }
-    }
+    values.chunks_mut(pitch).for_each(|row| integrate_row(row, &mut sum));
 }
 
-impl<'w> PreparedIntegrals<'w> {
-    pub(in crate::filter::classic) fn new(world: &'w World, light: &'w [Rgba], order: u32) -> Self {
-        let table = |source: &Source| Table::new(source, &light[source.texels()], order);
-        Self { world, light, tables: world.sources().iter().map(table).collect() }
-    }
-
-    /// Returns the bytes of all tables, roughly.
-    pub(in crate::filter::classic) fn bytes(world: &World, order: u32) -> usize {
-        let of = |source: &Source| {
-            let turns = if source.period.is_some() { 2 } else { 1 };
-            (turns * source.columns() + order as usize) * (source.view.height() + order as usize)
-        };
-        world.sources().iter().map(of).sum::<usize>() * size_of::<Sums>()
+/// Replaces a row by the sum of all rows above it, and adds it to that sum.
+fn integrate_row<const N: usize>(row: &mut [[i128; N]], sum: &mut [[i128; N]]) {
+    for (sum, value) in sum.iter_mut().zip(row) {
+        let next = std::array::from_fn(|k| sum[k].wrapping_add(value[k]));
+        *value = *sum;
+        *sum = next;
     }
 }
 
@@ -247,7 +296,7 @@ impl Prepared for PreparedIntegrals<'_> {
         const BETWEEN: usize = 16;
         let Some(footprint) = bounded(footprint) else { return 0 };
         let views = self.world.sources().iter().zip(&self.tables);
-        let reached = views.filter(|(source, _)| reached(source, &footprint).is_some());
+        let reached = views.filter(|(source, _)| reached(source, &footprint, 1.0).is_some());
         reached.map(|(_, table)| BETWEEN * (table.columns.order + 1).pow(2)).sum()
     }
 
@@ -257,12 +306,15 @@ impl Prepared for PreparedIntegrals<'_> {
         let Some(footprint) = bounded(footprint) else { return Rgba::TRANSPARENT };
         let (mut sum, mut least) = ([0.0; 5], f64::INFINITY);
         for (source, table) in self.world.sources().iter().zip(&self.tables) {
-            let Some(seen) = reached(source, &footprint) else { continue };
+            let Some(seen) = reached(source, &footprint, 1.0) else { continue };
             let size = seen.half_box() * 2.0;
             let size = [size.x.clamp(1.0, table.columns.widest()), size.y.clamp(1.0, table.rows.widest())];
-            let x =
-                if source.period.is_some() { seen.place.x.rem_euclid(source.columns() as f64) } else { seen.place.x };
-            let found = table.mean([x, seen.place.y], size);
+            let x = if source.period.is_some() {
+                seen.place.x.rem_euclid(source.columns() as f64)
+            } else {
+                table.columns.near(seen.place.x)
+            };
+            let found = table.mean([x, table.rows.near(seen.place.y)], size);
             // The mean of a view that shows less is worth less: by the area of the kernel, in texels.
             (0..5).for_each(|k| sum[k] += found[k] * size[0] * size[1]);
             least = least.min(LEAST * source.texel_pitch.powi(2));
@@ -337,5 +389,39 @@ mod tests {
                 boxes(8, order).iter().sum::<i128>() * (1 << 100) + boxes(8, order).iter().sum::<i128>() / 2;
             assert_eq!(difference(axis, &sums, end, 8), sum, "order {order}");
         }
+    }
+    /// Sums of 16384² texels, kept a few rows at a time: differences at the far corner, where sums are largest, are exact.
+    #[test]
+    fn differences_of_a_large_picture_are_exact() {
+        const SIDE: usize = 1 << 14;
+        const ORDER: usize = 2;
+        const WIDTH: i64 = 9;
+        // As bright as rounding makes them.
+        let light = |i: usize, j: usize| ((i * 5 + j * 3) % 7) as i128 * ((1 << FINEST) / 6);
+        let axis = Axis { texels: SIDE, repeated: 0, order: ORDER };
+        let (mut across, mut down) = (Vec::new(), Vec::new());
+        let end = (SIDE - 3) as i64;
+        axis.difference(end, WIDTH, &mut across);
+        axis.difference(end, WIDTH, &mut down);
+        let mut above = [vec![[0i128]; axis.kept()], vec![[0i128]; axis.kept()]];
+        let mut found = 0i128;
+        for j in 0..axis.kept() {
+            let texel = |i: usize| if i < SIDE && j < SIDE { light(i, j) } else { 0 };
+            let mut row: Vec<[i128; 1]> = (0..axis.kept()).map(|i| [texel(i)]).collect();
+            (0..ORDER).for_each(|_| integrate(&mut row));
+            above.iter_mut().for_each(|sum| integrate_row(&mut row, sum));
+            let along =
+                || across.iter().fold(0i128, |sum, (i, factor)| sum.wrapping_add(row[*i][0].wrapping_mul(*factor)));
+            for (_, factor) in down.iter().filter(|(row, _)| *row == j) {
+                found = found.wrapping_add(along().wrapping_mul(*factor));
+            }
+        }
+        let weights = boxes(WIDTH as usize, ORDER);
+        let texel = |back: usize| end as usize - ORDER - back;
+        let row = |(down, weight): (usize, &i128)| {
+            let texels = weights.iter().enumerate().map(|(back, weight)| weight * light(texel(back), texel(down)));
+            weight * texels.sum::<i128>()
+        };
+        assert_eq!(found, weights.iter().enumerate().map(row).sum::<i128>());
     }
 }

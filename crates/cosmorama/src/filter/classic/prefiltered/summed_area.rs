@@ -2,18 +2,42 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use crate::camera::Footprint;
-use crate::filter::classic::region::reached;
+use crate::filter::classic::method::Method;
+use crate::filter::classic::weighing::reached;
 use crate::filter::reference::look;
-use crate::filter::traits::{Prepared, bounded};
+use crate::filter::traits::{Prepared, SetupCost, bounded};
+use crate::filter::{CrossSection, Kernel};
 use crate::raster::Rgba;
 use crate::world::{Source, World};
 
 /// The rectangle around a footprint's parallelogram, evenly weighted, by four look-ups in a table of sums (Crow 1984).
 ///
 /// A rectangle that crosses the edge of a view takes what lies in each view. Texels count by their solid angle. Sums are
-/// f64. A sum over 16384² texels of light up to 1 has 2¹⁴ additions along a column, each rounded by at most 2⁻²⁵ of a
-/// texel: the four look-ups of a rectangle are right to 2⁻⁹ of one texel's light, and to some 2⁻¹⁷ as roundings cancel.
-pub(in crate::filter::classic) struct PreparedSummedArea<'w> {
+/// f64. Each of the additions down a column is rounded by at most 2⁻⁵³ of the whole sum: in a picture of 16384² texels the
+/// four look-ups of a rectangle are right to 4 · 2¹⁴ · 2²⁸ · 2⁻⁵³ = 2⁻⁹ of the mean light of a texel, and to some 2⁻¹⁷ as
+/// roundings cancel. So it is the mean that counts: where a picture is a thousand times darker than its mean, as a night sky
+/// is beside its sun, a rectangle of one texel is right to a hundredth there, and at worst to twice its light. Larger ones are
+/// as much more exact.
+pub(in crate::filter::classic) struct SummedArea;
+
+impl Method for SummedArea {
+    fn prepare<'w>(self: Box<Self>, world: &'w World, light: &'w [Rgba]) -> Box<dyn Prepared + 'w> {
+        let tables = world.sources().par_iter().map(|source| Table::new(source, &light[source.texels()])).collect();
+        Box::new(PreparedSummedArea { world, light, tables })
+    }
+
+    fn setup(&self, world: &World) -> SetupCost {
+        let of = |source: &Source| (source.columns() + 1) * (source.view.height() + 1);
+        let entries: usize = world.sources().iter().map(of).sum();
+        SetupCost { texels: world.texel_count(), bytes: entries * size_of::<Sums>() }
+    }
+
+    fn kernel(&self) -> Option<Kernel> {
+        Some(Kernel::uniform(CrossSection::Box))
+    }
+}
+
+struct PreparedSummedArea<'w> {
     world: &'w World,
     light: &'w [Rgba],
     tables: Vec<Table>,
@@ -31,16 +55,14 @@ struct Table {
     sums: Vec<Sums>,
 }
 
-impl<'w> PreparedSummedArea<'w> {
-    pub(in crate::filter::classic) fn new(world: &'w World, light: &'w [Rgba]) -> Self {
-        let tables = world.sources().par_iter().map(|source| Table::new(source, &light[source.texels()])).collect();
-        Self { world, light, tables }
-    }
-
-    /// Returns the bytes of all tables.
-    pub(in crate::filter::classic) fn bytes(world: &World) -> usize {
-        world.sources().iter().map(|source| (source.columns() + 1) * (source.view.height() + 1)).sum::<usize>()
-            * size_of::<Sums>()
+/// Fills a row of sums, of which the first is zero, from the row above and the texels between.
+fn sum_row<const N: usize>(above: &[[f64; N]], texels: impl Iterator<Item = [f64; N]>, row: &mut [[f64; N]]) {
+    let mut along = [0.0; N];
+    for ((texel, above), sum) in texels.zip(&above[1..]).zip(&mut row[1..]) {
+        for k in 0..N {
+            along[k] += texel[k];
+            sum[k] = above[k] + along[k];
+        }
     }
 }
 
@@ -49,18 +71,14 @@ impl Table {
         let (columns, rows, stride) = (source.columns(), source.view.height(), source.view.width());
         let pitch = columns + 1;
         let mut sums = vec![[0.0; 5]; pitch * (rows + 1)];
+        let texel = |texel: usize| {
+            let solid_angle = f64::from(source.solid_angles[texel]);
+            let [red, green, blue, alpha] = light[texel].0.map(|channel| solid_angle * f64::from(channel));
+            [red, green, blue, alpha, solid_angle]
+        };
         for j in 0..rows {
-            let mut along = [0.0; 5];
-            for i in 0..columns {
-                let texel = j * stride + i;
-                let (solid_angle, Rgba(light)) = (f64::from(source.solid_angles[texel]), light[texel]);
-                let above = sums[j * pitch + i + 1];
-                let into = &mut sums[(j + 1) * pitch + i + 1];
-                for k in 0..5 {
-                    along[k] += solid_angle * light.get(k).map_or(1.0, |channel| f64::from(*channel));
-                    into[k] = above[k] + along[k];
-                }
-            }
+            let (above, below) = sums.split_at_mut((j + 1) * pitch);
+            sum_row(&above[j * pitch..], (j * stride..j * stride + columns).map(texel), &mut below[..pitch]);
         }
         Self { columns, rows, is_round: source.period.is_some(), sums }
     }
@@ -77,8 +95,9 @@ impl Table {
             let (above, below) = (at(j), at(j + 1));
             std::array::from_fn(|k| part * (above[k] + (below[k] - above[k]) * down))
         };
-        let parts: [Sums; 3] = [row(i, 1.0 - right), row(i + 1, right), row(self.columns, turns)];
-        std::array::from_fn(|k| parts[0][k] + parts[1][k] + parts[2][k])
+        let parts: [Sums; 2] = [row(i, 1.0 - right), row(i + 1, right)];
+        let whole = if turns == 0.0 { [0.0; 5] } else { row(self.columns, turns) };
+        std::array::from_fn(|k| parts[0][k] + parts[1][k] + whole[k])
     }
 
     /// Returns the sum of a rectangle.
@@ -95,10 +114,10 @@ impl Prepared for PreparedSummedArea<'_> {
     }
 
     fn reads(&self, footprint: &Footprint) -> usize {
-        /// Entries around each corner of a rectangle.
+        /// Entries around each corner of a rectangle; a rectangle across a panorama's ends reads two more for each.
         const ENTRIES: usize = 4 * 4;
         let Some(footprint) = bounded(footprint) else { return 0 };
-        ENTRIES * self.world.sources().iter().filter(|source| reached(source, &footprint).is_some()).count()
+        ENTRIES * self.world.sources().iter().filter(|source| reached(source, &footprint, 1.0).is_some()).count()
     }
 
     fn average(&self, footprint: &Footprint) -> Rgba {
@@ -108,7 +127,7 @@ impl Prepared for PreparedSummedArea<'_> {
         let mut sum = [0.0; 5];
         let mut least = f64::INFINITY;
         for (source, table) in self.world.sources().iter().zip(&self.tables) {
-            let Some(seen) = reached(source, &footprint) else { continue };
+            let Some(seen) = reached(source, &footprint, 1.0) else { continue };
             // No narrower than a texel, so that two neighbours are interpolated where a picture is enlarged.
             let round = if table.is_round { 0.5 * table.columns as f64 } else { f64::INFINITY };
             let half = seen.half_box().max(DVec2::splat(0.5)).min(DVec2::new(round, f64::INFINITY));
@@ -121,5 +140,39 @@ impl Prepared for PreparedSummedArea<'_> {
             return Rgba([red, green, blue, alpha].map(|channel| (channel / solid_angle) as f32));
         }
         look(self.world, footprint.direction, self.light).unwrap_or_default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sums of 16384² texels of a pattern whose sums are known, by the table's own recurrence: of single texels and of
+    /// rectangles at the far corner, where sums are largest.
+    #[test]
+    fn sums_of_a_large_picture_are_exact_enough() {
+        const SIDE: usize = 1 << 14;
+        /// Rows of the rectangle.
+        const ROWS: usize = 5;
+        // No multiple of a power of two, so that sums are rounded.
+        let unit = f64::from(0.1f32);
+        let texel = |i: usize, j: usize| ((i * 5 + j * 3) % 7) as f64 * unit;
+        let (mut above, mut row) = (vec![[0.0]; SIDE + 1], vec![[0.0]; SIDE + 1]);
+        let mut before = above.clone();
+        for j in 0..SIDE {
+            if j == SIDE - ROWS {
+                before.clone_from(&above);
+            }
+            sum_row(&above, (0..SIDE).map(|i| [texel(i, j)]), &mut row);
+            std::mem::swap(&mut above, &mut row);
+        }
+        for columns in [1, 2, 7, 1000] {
+            let first = SIDE - columns;
+            let found = above[SIDE][0] - above[first][0] - before[SIDE][0] + before[first][0];
+            let texels = (SIDE - ROWS..SIDE).flat_map(|j| (first..SIDE).map(move |i| (i, j)));
+            let expected: f64 = texels.map(|(i, j)| texel(i, j)).sum();
+            // The mean light is three units.
+            assert!((found - expected).abs() < 3.0 * unit / 512.0, "{columns} columns: {found} for {expected}");
+        }
     }
 }
