@@ -10,7 +10,9 @@ use super::tap_lists::Palette;
 use super::texels::Texels;
 use super::tile_writer::{Canvas, GroupLight};
 use super::view_texels::ViewTexels;
+use crate::render::batch::window::Windows;
 use crate::render::plan::band::Band;
+use crate::render::plan::recorder::Maker;
 use crate::render::plan::span::Run;
 use crate::render::plan::symmetry::{Mirrors, TOGETHER, Ways};
 use crate::render::plan::traversal::{Pass, passes};
@@ -26,6 +28,8 @@ pub(crate) trait WindowArithmetic: Palette<Pixel: Zeroable + Send + Sync> + Sync
     type Light: Copy + Default;
     /// Working memory that the windows of a group share.
     type Shared: Default;
+    /// Working memory of windows that are applied as soon as they are weighed.
+    type Fresh: Default;
 
     /// Returns the pixel that is shown where the target sees nothing.
     fn background(&self) -> Self::Pixel;
@@ -51,6 +55,26 @@ pub(crate) trait WindowArithmetic: Palette<Pixel: Zeroable + Send + Sync> + Sync
         light: &GroupLight<Self::Light>,
         canvas: &mut Canvas<Self::Pixel>,
     );
+
+    /// Makes the pixels of windows that have just been weighed; false if they are to be recorded.
+    fn put_at_once<S: Simd>(
+        &self,
+        simd: S,
+        memory: &mut Self::Fresh,
+        fresh: &Fresh<Self::Sample>,
+        canvas: &mut Canvas<Self::Pixel>,
+    ) -> bool;
+}
+
+/// Windows that have just been weighed, in a picture without mirror images.
+pub(crate) struct Fresh<'a, T> {
+    pub(crate) texels: &'a Texels<'a, T, 1, 0>,
+    pub(crate) windows: &'a Windows,
+    /// First of the pixels, and the bits of those that the windows make.
+    pub(crate) pixel: [usize; 2],
+    pub(crate) lanes: u8,
+    /// Whether light is clamped to the texels under the pixel.
+    pub(crate) is_bounded: bool,
 }
 
 /// Window of a pixel in N mirror images. In the last R of them, texels run from right to left.
@@ -84,13 +108,39 @@ pub(crate) struct BandFilter<'a, A> {
     pub(crate) arithmetic: A,
 }
 
-impl<A: WindowArithmetic> BandFilter<'_, A> {
-    pub(crate) fn fill(&self, band: &Band<A::Format>, canvas: &mut Canvas<A::Pixel>) {
+impl<A: WindowArithmetic> Maker<A::Format, A::Pixel> for BandFilter<'_, A> {
+    type Memory = A::Fresh;
+
+    fn fill(&self, band: &Band<A::Format>, canvas: &mut Canvas<A::Pixel>) {
         let level = self.level;
         dispatch!(level, simd => {
             self.runs(simd, band, canvas);
             band.singles.fill(simd, self.mirrors, (&self.arithmetic, self.anti_ringing), canvas);
         });
+    }
+
+    fn put_at_once(
+        &self,
+        memory: &mut A::Fresh,
+        (pixel, lanes): ([usize; 2], u8),
+        windows: &Windows,
+        canvas: &mut Canvas<A::Pixel>,
+    ) -> bool {
+        let Some(texels) = self.texels_unless_mirrored(windows.view()) else { return false };
+        let fresh = Fresh { texels: &texels, windows, pixel, lanes, is_bounded: self.anti_ringing };
+        let level = self.level;
+        dispatch!(level, simd => self.arithmetic.put_at_once(simd, memory, &fresh, canvas))
+    }
+}
+
+impl<A: WindowArithmetic> BandFilter<'_, A> {
+    /// Returns the texels of a view in a picture without mirror images; `None` in others.
+    fn texels_unless_mirrored(&self, view: usize) -> Option<Texels<'_, A::Sample, 1, 0>> {
+        if self.mirrors.images.len() > 1 {
+            return None;
+        }
+        let walks = [self.mirrors.ways(view).walks[0]];
+        Some(Texels::new(self.arithmetic.texels().as_flattened(), walks, self.mirrors.layout().nth(view)?.size))
     }
 
     // No closures below except those passed to `vectorize`: in others the compiler would not use the SIMD level's

@@ -116,7 +116,7 @@ impl LaneShapes {
 
 /// Transposes the bits of eight bytes (Warren, Hacker's Delight, 7-3). The first byte gets the first bit of each.
 #[inline(always)]
-fn turned_bits(bytes: [u8; SIDE]) -> [u8; SIDE] {
+pub(crate) fn turned_bits(bytes: [u8; SIDE]) -> [u8; SIDE] {
     let mut bits = u64::from_le_bytes(bytes);
     for (shift, mask) in [(7, 0x00aa_00aa_00aa_00aa), (14, 0x0000_cccc_0000_cccc), (28, 0x0000_0000_f0f0_f0f0)] {
         let changed = (bits ^ bits >> shift) & mask;

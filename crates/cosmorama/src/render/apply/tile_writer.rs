@@ -236,6 +236,25 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
         }
     }
 
+    /// Makes pixels of the light of a run, where nothing is mirrored, and writes those in these lanes.
+    #[inline(always)]
+    pub(crate) fn put_run<D: Develop<Pixel = P>>(
+        &mut self,
+        pixel: [usize; 2],
+        lanes: u8,
+        light: &[D::Light; SIDE],
+        develop: &D,
+    ) {
+        self.note(pixel, lanes);
+        if lanes == u8::MAX {
+            self.part.lines(0, pixel, [SIDE, 1]).write(0, &develop.eight(light.each_ref()));
+            return;
+        }
+        for (lane, light) in light.iter().enumerate().filter(|(lane, _)| lanes >> lane & 1 == 1) {
+            self.part.lines(0, [pixel[0] + lane, pixel[1]], [1; 2]).write(0, &[develop.one(*light)]);
+        }
+    }
+
     /// Returns the pixel that a mirror image shows in place of the one in this column and row of the band.
     #[inline(always)]
     pub(crate) fn pixel(&mut self, image: usize, pixel: [usize; 2]) -> &mut P {

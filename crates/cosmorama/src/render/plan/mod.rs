@@ -25,7 +25,7 @@ use crate::render::apply::float::FloatArithmetic;
 use crate::render::apply::float::weights::FloatFormat;
 use crate::render::apply::tile_writer::Canvas;
 use band::Band;
-use recorder::Recorder;
+use recorder::{Maker, Outlet, Painter, Recorder};
 use symmetry::{MirrorImage, Mirrors, exchanged};
 use window_format::Format;
 
@@ -209,7 +209,7 @@ pub(crate) fn render<A: WindowArithmetic>(
     let mut image = Image::zeroed(resampler.target.width(), resampler.target.height());
     let pixels = (image.pixels_mut(), arithmetic.background());
     let filter = BandFilter { level, mirrors, anti_ringing: resampler.filter.anti_ringing, arithmetic };
-    each_band((resampler, wanted), mirrors, pixels, (level, watch), |band, canvas| filter.fill(band, canvas));
+    each_band((resampler, wanted), mirrors, pixels, (level, watch), &filter);
     image
 }
 
@@ -227,7 +227,7 @@ fn part_bytes_estimate<F: Format>(resampler: &Resampler, wanted: Option<&Wanted>
         let top = band.start + index % (BAND / SIDE) * SIDE;
         let rows = if top < band.end && !is_small { top..band.end.min(top + SIDE) } else { band };
         let (mut kept, mut bytes, count) = (Band::<F>::default(), 0, rows.len());
-        record((resampler, wanted), mirrors, &table, rows, Level::new(), &mut kept, |band| {
+        record((resampler, wanted), mirrors, &table, rows, Level::new(), &mut kept, |band: &mut Band<F>| {
             bytes += band.used_bytes();
             band.clear();
         });
@@ -245,7 +245,7 @@ impl<F: Format> Compiled<F> {
         let table = KernelTable::new(&filter.kernel);
         let compile = |index| {
             let mut band = Band::default();
-            record((resampler, wanted), &mirrors, &table, mirrors.band(index), level, &mut band, |_| {});
+            record((resampler, wanted), &mirrors, &table, mirrors.band(index), level, &mut band, |_: &mut Band<F>| {});
             band.settle();
             band
         };
@@ -276,29 +276,28 @@ impl<F: Format> Compiled<F> {
 }
 
 /// Records each band, makes its pixels and drops it.
-fn each_band<F: Format, P: NoUninit + Send + Sync>(
+fn each_band<F: Format, P: NoUninit + Send + Sync, M: Maker<F, P>>(
     (resampler, wanted): (&Resampler, Option<&Wanted>),
     mirrors: &Mirrors,
     (pixels, background): (&mut [P], P),
     (level, watch): (Level, Watch),
-    make: impl Fn(&Band<F>, &mut Canvas<P>) + Sync,
+    maker: &M,
 ) {
     let table = &KernelTable::new(&resampler.filter.kernel);
     let canvases = Canvas::bands(pixels, resampler.target.width(), BAND, mirrors, background);
     let parts = watch.parts(canvases.len());
-    canvases.into_par_iter().enumerate().for_each_init(Band::default, |band, (index, mut canvas)| {
+    let memory = <(Band<F>, M::Memory)>::default;
+    canvases.into_par_iter().enumerate().for_each_init(memory, |(band, memory), (index, mut canvas)| {
         parts.part(|| {
             band.clear();
-            record((resampler, wanted), mirrors, table, mirrors.band(index), level, band, |band| {
-                make(band, &mut canvas);
-                band.clear();
-            });
-            make(band, &mut canvas);
+            let painter = Painter { maker, memory, canvas: &mut canvas };
+            record((resampler, wanted), mirrors, table, mirrors.band(index), level, band, painter);
+            maker.fill(band, &mut canvas);
         });
     });
 }
 
-/// Records some rows; `spill` may empty the band when it holds much.
+/// Records some rows.
 fn record<F: Format>(
     (resampler, wanted): (&Resampler, Option<&Wanted>),
     mirrors: &Mirrors,
@@ -306,10 +305,10 @@ fn record<F: Format>(
     rows: Range<usize>,
     level: Level,
     band: &mut Band<F>,
-    spill: impl FnMut(&mut Band<F>),
+    outlet: impl Outlet<F>,
 ) {
     let mut recorder =
-        Recorder { world: resampler.world, mirrors, band, taps: Taps::default(), places: Vec::new(), spill };
+        Recorder { world: resampler.world, mirrors, band, taps: Taps::default(), places: Vec::new(), outlet };
     let area = Area { columns: mirrors.columns, rows, skips_left_of_diagonal: mirrors.has_diagonals() };
     Scan::new(resampler, table, level).only(wanted).pixels(&area, &mut recorder);
 }

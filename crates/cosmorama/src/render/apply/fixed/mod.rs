@@ -5,6 +5,7 @@
 //! for each mirror image. The product of pairs is then a weighted sum of two texels, and weights are spread once for
 //! all mirror images.
 
+pub(crate) mod at_once;
 pub(crate) mod blocks;
 pub(crate) mod encode_u8;
 pub(crate) mod patch_texels;
@@ -15,7 +16,8 @@ pub(crate) mod window;
 
 use fearless_simd::{Simd, f32x4, i32x4, prelude::*};
 
-use super::driver::{Window, WindowArithmetic};
+use super::driver::{Fresh, Window, WindowArithmetic};
+use super::fixed::at_once::FreshWeights;
 use super::fixed::blocks::Mirrored;
 #[cfg(target_arch = "x86_64")]
 use super::fixed::encode_u8::Compute;
@@ -39,6 +41,7 @@ impl WindowArithmetic for FixedArithmetic<'_> {
     type Format = FixedFormat;
     type Light = [i32; 4];
     type Shared = PatchTexels;
+    type Fresh = FreshWeights;
 
     fn background(&self) -> [u8; 3] {
         self.codec.background()
@@ -95,6 +98,30 @@ impl WindowArithmetic for FixedArithmetic<'_> {
             return;
         }
         canvas.put(pass, ways, light, &codes);
+    }
+
+    #[inline(always)]
+    fn put_at_once<S: Simd>(
+        &self,
+        simd: S,
+        weights: &mut FreshWeights,
+        Fresh { texels, windows, pixel, lanes, is_bounded }: &Fresh<i16>,
+        canvas: &mut Canvas<[u8; 3]>,
+    ) -> bool {
+        if !weights.take(simd, *lanes, windows) {
+            return false;
+        }
+        let light = weights.light(simd, texels, (*lanes, windows), *is_bounded);
+        let codes = LookUp(self.codec.codes());
+        #[cfg(target_arch = "x86_64")]
+        if let Some(level) = simd.level().as_avx512()
+            && codes.0.are_srgb()
+        {
+            canvas.put_run(*pixel, *lanes, &light, &Compute { level, codes });
+            return true;
+        }
+        canvas.put_run(*pixel, *lanes, &light, &codes);
+        true
     }
 }
 

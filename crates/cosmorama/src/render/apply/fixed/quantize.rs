@@ -44,33 +44,25 @@ pub(crate) struct Origin {
 }
 
 impl Rounded {
-    /// Rounds the weights of all lanes; false if they are too large. The rounding error of one texel is passed to the
-    /// next, so that each lane's sum is exactly one. The exception is a last weight of one, which 16 bits do not hold.
+    /// Rounds the weights of all lanes; false if they are too large.
     #[inline(always)]
     pub(crate) fn fill<S: Simd>(&mut self, simd: S, windows: &Windows) -> bool {
         let Some(bits) = scale(windows.size()) else { return false };
         self.bits = bits;
         self.resize(windows);
-        let (pitch, most) = (self.pitch(), i32x8::splat(simd, i32::from(i16::MAX)));
+        let (pitch, width) = (self.pitch(), self.width);
         let (mut columns, mut rows) = ([0; SIDE], [0; SIDE]);
-        let scale = (1 << bits) as f32;
-        let mut sums = f32x8::splat(simd, 0.0);
-        let mut before: i32x8<S> = f32x8::splat(simd, ROUNDER).bitcast();
-        let width = self.width;
+        let mut rounding = Rounding::new(simd, bits);
         let weights = windows.weights().chunks_exact(width).zip(windows.under().chunks_exact(width));
         let into = self.weights.chunks_exact_mut(pitch).zip(self.under.chunks_exact_mut(pitch));
         for (row, ((into, under_into), (weights, under))) in into.zip(weights).enumerate() {
             let (into, under_into) = (&mut into[1..][..width], &mut under_into[1..][..width]);
             let mut in_row = 0;
             for column in 0..width {
-                sums += f32x8::load_array(simd, weights[column]) * scale;
-                let sum: i32x8<S> = (sums + ROUNDER).bitcast();
-                let step = (sum - before).min(most);
-                before += step;
-                let (low, high) = step.split();
-                into[column] = low.relaxed_narrow(high).to_array();
+                let rounded = rounding.next(simd, &weights[column]);
+                into[column] = rounded.to_array();
                 under_into[column] = under[column];
-                let counts = !(step.simd_eq(0).to_bitmask() as u8) | under[column];
+                let counts = !(rounded.simd_eq(0).to_bitmask() as u8) | under[column];
                 columns[column % SIDE] |= counts;
                 in_row |= counts;
             }
@@ -164,6 +156,34 @@ impl Rounded {
     }
 }
 
+/// Rounding of windows' weights, texel by texel. The rounding error of one texel is passed to the next, so that each
+/// lane's sum is exactly one. The exception is a last weight of one, which 16 bits do not hold.
+pub(crate) struct Rounding<S: Simd> {
+    scale: f32,
+    sums: f32x8<S>,
+    before: i32x8<S>,
+}
+
+impl<S: Simd> Rounding<S> {
+    /// Begins with the first texel; weights are scaled by this number of bits.
+    #[inline(always)]
+    pub(crate) fn new(simd: S, bits: u32) -> Self {
+        let before = f32x8::splat(simd, ROUNDER).bitcast();
+        Self { scale: (1 << bits) as f32, sums: f32x8::splat(simd, 0.0), before }
+    }
+
+    /// Rounds the next texel's weights.
+    #[inline(always)]
+    pub(crate) fn next(&mut self, simd: S, weights: &[f32; SIDE]) -> i16x8<S> {
+        self.sums += f32x8::load_array_ref(simd, weights) * self.scale;
+        let sum: i32x8<S> = (self.sums + ROUNDER).bitcast();
+        let step = (sum - self.before).min(i32x8::splat(simd, i32::from(i16::MAX)));
+        self.before += step;
+        let (low, high) = step.split();
+        low.relaxed_narrow(high)
+    }
+}
+
 /// Converts bits of columns to bits of the texels of a window that begins at `origin`.
 #[inline(always)]
 fn texels_from(origin: Origin, columns: u8) -> u32 {
@@ -185,7 +205,7 @@ fn refill<T: Copy>(vector: &mut Vec<T>, length: usize, value: T) {
 /// Transposes 8 × 8 numbers: the first row gets the first number of each row. Each of three steps interleaves every row
 /// with the fourth row after it.
 #[inline(always)]
-fn turned<S: Simd>(mut rows: [i16x8<S>; SIDE]) -> [i16x8<S>; SIDE] {
+pub(crate) fn turned<S: Simd>(mut rows: [i16x8<S>; SIDE]) -> [i16x8<S>; SIDE] {
     for _ in 0..3 {
         let zipped: [_; SIDE / 2] = std::array::from_fn(|at| rows[at].interleave(rows[at + SIDE / 2]));
         rows = std::array::from_fn(|at| if at % 2 == 0 { zipped[at / 2].0 } else { zipped[at / 2].1 });
@@ -194,7 +214,7 @@ fn turned<S: Simd>(mut rows: [i16x8<S>; SIDE]) -> [i16x8<S>; SIDE] {
 }
 
 /// Returns the number of bits by which weights of this size are scaled, so that sums of products fit into 32.
-fn scale(Size { largest, sum }: Size) -> Option<u32> {
+pub(crate) fn scale(Size { largest, sum }: Size) -> Option<u32> {
     // Rounding may add one to a sum for each texel.
     const { assert!(3.9 * (1 << 14) as f64 + (LARGEST as f64) < (1 << 16) as f64) };
     if largest < 1.0 && sum < 1.9 {

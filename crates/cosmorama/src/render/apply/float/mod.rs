@@ -7,7 +7,7 @@ pub(crate) mod window;
 
 use fearless_simd::{Simd, f32x4, prelude::*};
 
-use super::driver::{Window, WindowArithmetic};
+use super::driver::{Fresh, Window, WindowArithmetic};
 use super::fixed::blocks::Mirrored;
 use super::float::weights::FloatFormat;
 use super::tap_lists::Palette;
@@ -28,6 +28,7 @@ impl WindowArithmetic for FloatArithmetic<'_> {
     type Format = FloatFormat;
     type Light = Rgba;
     type Shared = ();
+    type Fresh = ();
 
     fn background(&self) -> Rgba {
         self.background
@@ -59,6 +60,11 @@ impl WindowArithmetic for FloatArithmetic<'_> {
     #[inline(always)]
     fn put<S: Simd>(&self, _: S, pass: &Pass, ways: &Ways, light: &GroupLight<Rgba>, canvas: &mut Canvas<Rgba>) {
         canvas.put(pass, ways, light, self);
+    }
+
+    #[inline(always)]
+    fn put_at_once<S: Simd>(&self, _: S, (): &mut (), _: &Fresh<f32>, _: &mut Canvas<Rgba>) -> bool {
+        false
     }
 }
 

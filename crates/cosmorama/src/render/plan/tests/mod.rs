@@ -1,3 +1,4 @@
+mod at_once;
 mod palettes;
 mod runs;
 mod sizes;
@@ -5,6 +6,7 @@ mod worlds;
 
 use fearless_simd::{Simd, dispatch};
 
+use super::recorder::Maker;
 use super::symmetry::{MirrorImage, Mirrors};
 use super::window_format::{Place, Shape, SmallShapes};
 use super::*;
@@ -124,13 +126,7 @@ fn what_mirrors_show_is_what_would_be_computed() {
         let (level, background) = (Level::new(), Rgba::TRANSPARENT);
         let arithmetic = FloatArithmetic { texels: &texels, background };
         let filter = BandFilter { level, mirrors: &alone, anti_ringing: true, arithmetic };
-        each_band(
-            (&resampler, None),
-            &alone,
-            (expected.pixels_mut(), background),
-            (level, Watch::NONE),
-            |band, canvas| filter.fill(band, canvas),
-        );
+        each_band((&resampler, None), &alone, (expected.pixels_mut(), background), (level, Watch::NONE), &filter);
         let made = resampler.render(&texels);
         for (a, b) in made.pixels().iter().zip(expected.pixels()) {
             // Patches lie differently in the two pictures. A pixel of a patch may be a single pixel in the other, with
@@ -189,6 +185,26 @@ impl Format for NoWindows {
     }
 }
 
+/// Maker of pixels from recorded bands alone.
+struct ByBands<C>(C);
+
+impl<F: Format, P: NoUninit, C: Fn(&Band<F>, &mut Canvas<P>) + Sync> Maker<F, P> for ByBands<C> {
+    type Memory = ();
+
+    fn fill(&self, band: &Band<F>, canvas: &mut Canvas<P>) {
+        self.0(band, canvas);
+    }
+
+    fn put_at_once(&self, (): &mut (), _: ([usize; 2], u8), _: &Windows, _: &mut Canvas<P>) -> bool {
+        false
+    }
+}
+
+/// Returns the maker that calls a function with each band.
+fn by_bands<F, P: NoUninit, C: Fn(&Band<F>, &mut Canvas<P>) + Sync>(function: C) -> ByBands<C> {
+    ByBands(function)
+}
+
 /// Compares windows of all sizes, four texels at once, and single pixels in all mirror images at once, with lists of
 /// texels one after the other.
 #[test]
@@ -206,11 +222,12 @@ fn windows_of_floats_make_what_their_texels_make_one_by_one() {
             let arithmetic = FloatArithmetic { texels: &texels, background };
             let mut one_by_one = expected.clone();
             let pixels = (one_by_one.pixels_mut(), background);
-            each_band((&resampler, None), &mirrors, pixels, (level, Watch::NONE), |band: &Band<NoWindows>, canvas| {
+            let maker = by_bands(|band: &Band<NoWindows>, canvas| {
                 dispatch!(level, simd => band.singles.fill(simd, &mirrors, (&arithmetic, anti_ringing), canvas));
             });
+            each_band((&resampler, None), &mirrors, pixels, (level, Watch::NONE), &maker);
             let pixels = (expected.pixels_mut(), background);
-            each_band((&resampler, None), &mirrors, pixels, (level, Watch::NONE), |band: &Band<NoWindows>, canvas| {
+            let maker = by_bands(|band: &Band<NoWindows>, canvas: &mut Canvas<Rgba>| {
                 for single in band.singles.pixels() {
                     let taps = band.singles.taps(single, mirrors.images.len());
                     let at = [single.column as usize, usize::from(single.row)];
@@ -224,6 +241,7 @@ fn windows_of_floats_make_what_their_texels_make_one_by_one() {
                     }
                 }
             });
+            each_band((&resampler, None), &mirrors, pixels, (level, Watch::NONE), &maker);
             assert!(one_by_one == expected, "to the last bit");
             for (made, expected) in resampler.render(&texels).pixels().iter().zip(expected.pixels()) {
                 assert!((0..4).all(|c| (made.0[c] - expected.0[c]).abs() < 4e-6), "{made:?} is not {expected:?}");

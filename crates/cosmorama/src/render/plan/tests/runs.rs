@@ -38,11 +38,12 @@ fn bands_of_large_windows_are_made_before_they_are_all_there() {
         let (resampler, level) = (resampler(&world, &target), Level::new());
         let (mirrors, table) = (Mirrors::of::<FloatFormat>(&resampler), KernelTable::new(&resampler.filter.kernel));
         let mut band = Band::<FloatFormat>::default();
-        record((&resampler, None), &mirrors, &table, 0..BAND.min(mirrors.rows), level, &mut band, |band| {
+        let spill = |band: &mut Band<FloatFormat>| {
             spilled += usize::from(band.weights.len() > 1 << 20);
             most = most.max(band.weights.len());
             band.clear();
-        });
+        };
+        record((&resampler, None), &mirrors, &table, 0..BAND.min(mirrors.rows), level, &mut band, spill);
         most = most.max(band.weights.len());
     }
     // The limit and one more patch, whose windows have a thousand texels each and some marks.
