@@ -12,7 +12,13 @@ const LONG: Duration = Duration::from_secs(24 * 60 * 60);
 
 /// Returns the beginning of the names of this process's temporary files.
 pub(super) fn prefix() -> String {
-    machine().map_or_else(|| PREFIX.to_owned(), |machine| format!("{PREFIX}{machine}-{}-", std::process::id()))
+    let both = machine().zip(this_process());
+    both.map_or_else(|| PREFIX.to_owned(), |(machine, process)| format!("{PREFIX}{machine}-{process}-"))
+}
+
+/// Returns the number of this process, in its name space.
+fn this_process() -> Option<String> {
+    fs::read_link("/proc/self").ok()?.into_os_string().into_string().ok()
 }
 
 /// Returns a name of this machine since its start, and of the name space of its processes; `None` where the system tells none.
@@ -88,7 +94,7 @@ mod tests {
         let machine = machine().unwrap();
         // Numbers of processes are smaller.
         let gone = format!(".cosmorama-{machine}-4194305-abcdef.part");
-        let alive = format!(".cosmorama-{machine}-{}-abcdef.part", std::process::id());
+        let alive = format!(".cosmorama-{machine}-{}-abcdef.part", this_process().unwrap());
         let (elsewhere, old) = (".cosmorama-0123.45-4194305-abcdef.part", ".cosmorama-abcdef.part");
         make(&gone);
         fs::create_dir(folder.path().join(gone.replace("abcdef", "folder"))).unwrap();

@@ -9,10 +9,11 @@ fn light(bench: &Bench, name: &str) -> Image<Rgba> {
     read(bench.path(name), &Limits::NONE).unwrap().to_light()
 }
 
-/// Greatest difference between two pictures of light.
+/// Root mean square difference between two pictures of light.
 fn difference(a: &Image<Rgba>, b: &Image<Rgba>) -> f32 {
     let pairs = a.pixels().iter().zip(b.pixels());
-    pairs.flat_map(|(a, b)| (0..4).map(|c| (a.0[c] - b.0[c]).abs())).fold(0.0, f32::max)
+    let squares: Vec<f32> = pairs.flat_map(|(a, b)| (0..4).map(|c| (a.0[c] - b.0[c]).powi(2))).collect();
+    (squares.iter().sum::<f32>() / squares.len() as f32).sqrt()
 }
 
 fn bench() -> Bench {
@@ -24,7 +25,7 @@ fn bench() -> Bench {
 /// Other pictures than those of EWA, and nearly the same.
 fn assert_resemble(bench: &Bench, name: &str) {
     let found = difference(&light(bench, "ewa.png"), &light(bench, name));
-    assert!(found > 0.0 && found < 0.1, "{name}: {found}");
+    assert!(found > 0.0 && found < 0.05, "{name}: {found}");
 }
 
 #[test]

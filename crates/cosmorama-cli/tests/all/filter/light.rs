@@ -1,7 +1,7 @@
 //! What becomes of light: transfer functions, depth, channels, background and holes.
 
 use crate::bench::{Bench, eight_bits, flat, floats, text, veiled};
-use cosmorama::raster::{Channels, ColourChannel, Depth, EncodedImage, Samples, Transfer};
+use cosmorama::raster::{AlphaMode, Channels, ColourChannel, Depth, EncodedImage, Samples, Transfer};
 
 #[test]
 fn what_comes_in_goes_out() {
@@ -170,10 +170,11 @@ fn alpha_that_is_full_nowhere_is_told() {
     }
 }
 
-/// Float pixels, each of one grey and an alpha.
+/// Float pixels, each of one grey and an alpha, as the file holds them.
 fn greys(pixel: impl Fn(usize) -> [f32; 2]) -> EncodedImage {
     let samples = (0..64 * 32).map(|k| pixel(k % 64)).flat_map(|[grey, alpha]| [grey, grey, grey, alpha]).collect();
-    EncodedImage::new(64, 32, Channels::Rgba, Depth::Float, Samples::Float(samples)).unwrap()
+    let image = EncodedImage::new(64, 32, Channels::Rgba, Depth::Float, Samples::Float(samples)).unwrap();
+    image.with_alpha_mode(AlphaMode::Premultiplied)
 }
 
 #[test]

@@ -147,7 +147,7 @@ fn digests_are_of_what_is_computed() {
     let moved = with(&["--yaw", "90"]);
     kept(&bench, &[&moved[..2], &["moved_#.png"], &moved[3..]].concat());
     for (more, part) in [
-        (&["--yaw", "90", "--transfer", "gamma2.2"][..], "other colours"),
+        (&["--yaw", "90", "--transfer", "gamma:2.2"][..], "other colours"),
         (&["--yaw", "90", "--in-transfer", "linear"], "other colours"),
         (&["--yaw", "91"], "other geometry"),
         (&["--yaw", "90", "--pitch", "1"], "other geometry"),
@@ -178,7 +178,7 @@ fn frames_of_a_turn_over_other_frames_are_no_part_of_it() {
     let longer = [&args("1-7", "0..180")[..], &["--resume", "--json"]].concat();
     let report: Value = serde_json::from_str(&bench.succeed(&longer)).unwrap();
     assert_eq!((&report["frames"], &report["skipped"]), (&3.into(), &4.into()), "{report}");
-    let told = bench.fail(1, &[&args("1-4", "0..90")[..], &["--resume", "--shutter", "180"]].concat());
+    let told = bench.fail(1, &[&args("1-4", "0..90")[..], &["--resume", "--shutter", "0.5"]].concat());
     assert_says(&told, &["out_1.png was made with other"]);
 }
 
