@@ -1,6 +1,5 @@
 //! Headers of files, and file formats.
 
-mod capacity;
 mod choice;
 mod format;
 mod plane;
@@ -11,7 +10,6 @@ pub use choice::Choice;
 pub use format::Format;
 pub use plane::{LayeredImage, Plane, PlaneSamples};
 
-pub(crate) use capacity::DEFLATE;
 pub(crate) use choice::matches;
 
 use crate::metadata::{Metadata, Window};

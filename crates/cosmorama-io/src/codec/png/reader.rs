@@ -8,8 +8,8 @@ use png::{BitDepth, ColorType, Decoder, DecodingError, Info, Reader, Transformat
 use super::carried::{self, Found};
 use super::colour;
 use crate::codec::behind::{next_bytes, skip_padding};
+use crate::codec::capacity::DEFLATE;
 use crate::codec::interface::{Source, held, whole_image};
-use crate::header::DEFLATE;
 use crate::{Format, Header, ImageFile, IoError, Limits};
 
 const FORMAT: Format = Format::Png;

@@ -3,8 +3,7 @@
 
 use std::path::Path;
 
-use super::Header;
-use crate::IoError;
+use crate::{Header, IoError};
 
 /// Most bytes that deflate makes of one: 258 for each two bits.
 pub(crate) const DEFLATE: u64 = 1032;
