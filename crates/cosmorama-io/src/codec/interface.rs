@@ -132,6 +132,23 @@ fn words_of(payload: &(dyn Any + Send)) -> &str {
     payload.downcast_ref::<&str>().copied().or_else(owned).unwrap_or("a panic")
 }
 
+/// Most bytes that deflate makes of one: 258 for each two bits.
+pub(crate) const DEFLATE: u64 = 1032;
+
+impl Header {
+    /// Refuses a header that declares more pixels than so many bytes can hold, before anything is done for each of so many
+    /// pixels: no compression is without limits.
+    pub(crate) fn check_capacity(&self, path: &Path, bytes: u64, pixels_per_byte: u64) -> Result<(), IoError> {
+        let Self { format, width, height, .. } = *self;
+        let most = u128::from(bytes) * u128::from(pixels_per_byte);
+        if width as u128 * height as u128 <= most {
+            return Ok(());
+        }
+        let reason = format_args!("its {bytes} bytes cannot hold {width}x{height} pixels");
+        Err(IoError::damaged(path, format, reason))
+    }
+}
+
 /// Returns the header of a file, unless it declares more pixels than the file can hold.
 pub(crate) fn held(path: &Path, source: Source<'_>, header: Header, pixels_per_byte: u64) -> Result<Header, IoError> {
     let bytes = source.seek(SeekFrom::End(0)).map_err(|error| IoError::open(path, error))?;

@@ -3,7 +3,6 @@
 //! To add a format: a variant of [`Format`] with its properties, a type that implements [`Codec`], and its line in [`codec`].
 
 pub(crate) mod behind;
-mod capacity;
 mod exr;
 mod interface;
 mod jpeg;

@@ -151,12 +151,16 @@ fn digests_are_of_what_is_computed() {
         (&["--yaw", "90", "--in-transfer", "linear"], "other colours"),
         (&["--yaw", "91"], "other geometry"),
         (&["--yaw", "90", "--pitch", "1"], "other geometry"),
-        (&["--yaw", "90", "--size", "24"], "other geometry"),
         (&["--yaw", "90", "--kernel", "light"], "other filter"),
-        (&["--yaw", "90", "--to", "fulldome:tilt=1"], "other geometry"),
     ] {
         let told = bench.fail(1, &[&with(more)[..], &["--resume"]].concat());
         assert_says(&told, &["out_1.png was made with", part]);
+    }
+    for other in [["fulldome", "24"], ["fulldome:tilt=1", "16"]] {
+        let [to, size] = other;
+        let more = ["--to", to, "--size", size, "--from", "equirect", "--yaw", "90", "--resume"];
+        let told = bench.fail(1, &[&args[..3], &more].concat());
+        assert_says(&told, &["out_1.png was made with other geometry"]);
     }
 }
 

@@ -22,7 +22,7 @@ use super::offer::Offer;
 use super::selection::Selection;
 use super::window::Crop;
 use crate::codec::behind::{count_marks, next_bytes, skip_padding};
-use crate::codec::capacity::DEFLATE;
+use crate::codec::interface::DEFLATE;
 use crate::codec::interface::{Source, contained, held, is_beside_others, whole_image};
 use crate::{Attribute, Carried, Choice, EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata};
 

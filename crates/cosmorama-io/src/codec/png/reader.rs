@@ -8,7 +8,7 @@ use png::{BitDepth, ColorType, Decoder, DecodingError, Info, Reader, Transformat
 use super::carried::{self, Found};
 use super::colour;
 use crate::codec::behind::{next_bytes, skip_padding};
-use crate::codec::capacity::DEFLATE;
+use crate::codec::interface::DEFLATE;
 use crate::codec::interface::{Source, held, whole_image};
 use crate::{Format, Header, ImageFile, IoError, Limits};
 

@@ -8,7 +8,7 @@ use tiff::tags::{CompressionMethod, SampleFormat, Tag};
 use tiff::{ColorType, TiffError};
 
 use super::{carried, extent};
-use crate::codec::capacity::DEFLATE;
+use crate::codec::interface::DEFLATE;
 use crate::codec::interface::{Source, whole_image};
 use crate::{Format, Header, ImageFile, IoError, Limits, Metadata};
 
