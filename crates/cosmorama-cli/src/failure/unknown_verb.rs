@@ -53,7 +53,7 @@ const NO_VERBS: [(&[&str], &str); 7] = [
         "convert makes another size of the same projection: cosmorama convert INPUT OUTPUT --from SPEC --to SPEC --size N",
     ),
     (&["view", "open", "play", "gui"], "there is no viewer; 'cosmorama info FILE' tells what a picture is"),
-    (&["verify", "validate"], "frames are checked by 'cosmorama info PATTERN --check'"),
+    (&["validate"], "frames are checked by 'cosmorama verify PATTERN'"),
 ];
 
 /// Other words for the maps of `light`.

@@ -1,6 +1,6 @@
 use super::{FaceOrder, FacePart, FacePlacement, LayoutError, LayoutKind};
 use crate::camera::{CameraModel, Canvas, CubeFaceCamera, Mirror, PixelRect, Placement};
-use crate::sphere::{Angle, CubeFace, Orientation};
+use crate::sphere::CubeFace;
 
 /// The six faces of a cube in one picture.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,11 +35,8 @@ pub struct PlacedFace {
 impl PlacedFace {
     /// Returns the placement of the face's picture in the world, where the face is one of a cube of perspective views.
     pub fn placement(&self) -> Placement {
-        // A picture that has to be turned clockwise was taken by a camera that was itself turned clockwise.
-        let turn = Angle::from_degrees(90.0 * f64::from(self.lies.quarter_turns));
-        let rolled = Orientation::from_yaw_pitch_roll(Angle::ZERO, Angle::ZERO, turn);
         Placement {
-            orientation: rolled.within(self.face.orientation()),
+            orientation: self.lies.orientation(self.face),
             mirror: Mirror { x: self.lies.mirrored, y: false },
             canvas: Some(self.canvas),
             ..Placement::new(CameraModel::CubeFace(CubeFaceCamera))
@@ -194,7 +191,8 @@ fn greatest_common_divisor(a: usize, b: usize) -> usize {
 mod tests {
     use super::*;
     use crate::camera::PixelPoint;
-    use crate::sphere::Direction;
+    use crate::sphere::{Direction, Orientation};
+    use crate::sphere::Orientation;
 
     #[test]
     fn a_placed_face_looks_along_its_face_and_is_turned_with_its_picture() {
