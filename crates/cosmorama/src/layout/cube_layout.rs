@@ -192,7 +192,6 @@ mod tests {
     use super::*;
     use crate::camera::PixelPoint;
     use crate::sphere::{Direction, Orientation};
-    use crate::sphere::Orientation;
 
     #[test]
     fn a_placed_face_looks_along_its_face_and_is_turned_with_its_picture() {
