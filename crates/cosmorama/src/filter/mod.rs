@@ -13,6 +13,7 @@ pub(crate) mod taps;
 pub(crate) mod traits;
 
 pub use classic::{Classic, IntegrationOrder, WeighedClassic};
+pub(crate) use classic::{Passes, TwoPass};
 pub use ewa::Ewa;
 pub use ewa::paper::{TextureDerivatives, WeightTable, ewa};
 pub use ewa_pyramid::EwaPyramid;

@@ -5,11 +5,12 @@ use rayon::prelude::*;
 use super::apply::fixed::FixedArithmetic;
 use super::apply::float::FloatArithmetic;
 use super::batch::window::Level;
+use super::picture::two_pass;
 use super::plan::{self, Arithmetic, Plan};
 use super::progress::Watch;
 use super::{Resampler, picture, pyramid};
 use crate::filter::lookup::labels::PreparedLabels;
-use crate::filter::{Filter, FilterKind, Labels, reference};
+use crate::filter::{Classic, Filter, FilterKind, Labels, reference};
 use crate::raster::{FixedCodec, FixedLight, Image, Rgba};
 
 impl Resampler<'_> {
@@ -50,6 +51,9 @@ impl Resampler<'_> {
                 let labels = Labels { rule, kernel: self.filter.kernel };
                 let prepared = PreparedLabels::new(&labels, self.world, texels);
                 self.by_rows(watch, |row| prepared.fill_row(self.target, row))
+            }
+            FilterKind::Classic(Classic::TwoPass) => {
+                two_pass::render((self.world, self.target), &self.filter.kernel, texels, watch)
             }
             FilterKind::Classic(classic) => {
                 let prepared = classic.with(self.filter.kernel).of_texels(self.world, texels);
@@ -104,10 +108,11 @@ impl Resampler<'_> {
     }
 
     /// Returns the greatest number of bytes that the filter keeps beside the world's light while a frame is made: the levels
-    /// of a pyramid, or a table of sums.
+    /// of a pyramid, a table of sums, or sums of two passes.
     pub fn filter_bytes(&self) -> usize {
         match self.filter.kind {
             FilterKind::EwaPyramid => pyramid::bytes(self),
+            FilterKind::Classic(Classic::TwoPass) => two_pass::bytes(self.target),
             _ => self.filter.setup(self.world).bytes,
         }
     }

@@ -30,4 +30,5 @@ mod render {
     mod packed;
     mod progress;
     mod small;
+    mod two_pass;
 }

@@ -15,6 +15,7 @@ mod two_pass;
 mod weighing;
 
 pub use prefiltered::IntegrationOrder;
+pub(crate) use two_pass::{Passes, TwoPass};
 
 use super::Kernel;
 use super::traits::{Filter, PrepareError, Prepared, SetupCost};
@@ -80,8 +81,8 @@ classics! {
     FeibushLevoyCook = "feibush-levoy-cook", "Texels weighed on the screen by a table", feibush_levoy_cook::FeibushLevoyCook;
     /// Samples of the screen mapped to the texels, in a round kernel (Gangnet, Perny & Coueignoux 1982).
     Gangnet = "gangnet", "Samples of the screen in a round kernel", gangnet::Gangnet;
-    /// A model of two passes of one dimension each, along the rows and along the columns (Catmull & Smith 1980).
-    TwoPass = "two-pass", "Rows first and then columns, each of one dimension: a model of both", two_pass::TwoPass;
+    /// Two passes of one dimension each, along the rows and along the columns (Catmull & Smith 1980).
+    TwoPass = "two-pass", "Rows first and then columns, each of one dimension", two_pass::TwoPass;
     /// EWA as printed, with a Gaussian and finite differences (Greene & Heckbert 1986).
     EwaPaper = "ewa:paper", "EWA as printed in 1986: a Gaussian, finite differences", ewa_paper::EwaPaper;
     /// EWA in integers, as the paper proposes.

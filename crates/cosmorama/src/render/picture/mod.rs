@@ -1,3 +1,7 @@
+//! Pictures made without a plan: pixel by pixel, or by two passes.
+
+pub(super) mod two_pass;
+
 use rayon::prelude::*;
 
 use crate::camera::View;
