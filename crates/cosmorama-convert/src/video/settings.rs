@@ -1,0 +1,57 @@
+use std::path::PathBuf;
+
+use cosmorama::raster::{Channels, Depth, Primaries, Transfer};
+use cosmorama_spec::{FrameRate, Spec};
+
+/// Settings of videos, read and made.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct VideoSettings {
+    /// Frames a second of a video that is made; those of the first input that is a video, or 30, unless given.
+    pub rate: Option<FrameRate>,
+    /// Name of the codec's preset; the usual one of the container, unless given.
+    pub codec: Option<String>,
+    /// Further arguments of ffmpeg, before the output's name.
+    pub arguments: Vec<String>,
+    /// Answer to damaged frames of an input.
+    pub damaged: DamagedFrames,
+}
+
+/// Answer to a frame of a video that is damaged or missing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum DamagedFrames {
+    /// An error that names the frame.
+    #[default]
+    Error,
+    /// The frame before is shown again, with a warning.
+    Hold,
+}
+
+/// Plan of the videos that a conversion makes.
+#[derive(Clone, Debug)]
+pub(crate) struct VideoPlan {
+    /// Settings.
+    pub(crate) settings: VideoSettings,
+    /// Projection of the pictures.
+    pub(crate) to: Option<Spec>,
+    /// Sample type.
+    pub(crate) depth: Depth,
+    /// Channels.
+    pub(crate) channels: Channels,
+    /// Transfer function.
+    pub(crate) transfer: Transfer,
+    /// Primaries.
+    pub(crate) primaries: Primaries,
+    /// Number of frames.
+    pub(crate) frames: u64,
+    /// Input whose sound and rate the videos take over.
+    pub(crate) source: Option<VideoSource>,
+}
+
+/// Video among the inputs, with the frames of it that are shown.
+#[derive(Clone, Debug)]
+pub(crate) struct VideoSource {
+    /// File.
+    pub(crate) video: PathBuf,
+    /// Numbers of the frames, in the order of the output.
+    pub(crate) frames: Vec<u64>,
+}
