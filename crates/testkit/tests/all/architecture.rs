@@ -78,7 +78,7 @@ struct CratePlan {
     reason: &'static str,
 }
 
-const CRATES: [CratePlan; 8] = [
+const CRATES: [CratePlan; 9] = [
     CratePlan {
         name: "cosmorama",
         crates: &[],
@@ -123,8 +123,16 @@ const CRATES: [CratePlan; 8] = [
         reason: "files know no geometry and no terminal",
     },
     CratePlan {
+        name: "cosmorama-video",
+        crates: &["cosmorama", "cosmorama-io"],
+        rooms: &["raster"],
+        banned_std: &["net"],
+        banned: &["glam", "println", "eprintln"],
+        reason: "videos know no geometry and no terminal",
+    },
+    CratePlan {
         name: "cosmorama-convert",
-        crates: &["cosmorama", "cosmorama-builtin", "cosmorama-io", "cosmorama-spec"],
+        crates: &["cosmorama", "cosmorama-builtin", "cosmorama-io", "cosmorama-spec", "cosmorama-video"],
         rooms: ALL,
         banned_std: &["f32", "f64", "net", "process"],
         banned: &[
