@@ -165,6 +165,12 @@ pub enum IoError {
     /// A frame of a video, or a video, cannot be read or written. The message of its own reader or writer names it.
     #[error(transparent)]
     Video(Box<dyn std::error::Error + Send + Sync>),
+    /// A damaged frame of a video is left out, as was asked for.
+    #[error("{}: damaged or missing, and left out as was asked for; make the video again, or choose other frames", path.display())]
+    LeftOut {
+        /// Name of the frame.
+        path: PathBuf,
+    },
     /// The face pattern contains neither `{face}` nor `%c`.
     #[error(
         "{pattern}: no {{face}} or %c in this pattern; put one where the face's name stands, as in faces/{{face}}.png"

@@ -106,7 +106,8 @@ impl ExplanationSettings {
         let memory = MemoryBudget::new(self.limits.memory);
         // A file without a picture, as of depth alone, can be converted, too.
         let choice = Choice { without_picture: true, ..Choice::default() };
-        let files = ChosenFiles { files: Arc::clone(&self.files), choice };
+        let videos = Videos::default();
+        let files = ChosenFiles { files: Arc::clone(&self.files), choice, videos };
         let access = Access { files: &files, memory, decoded: &DecodedPicture::default() };
         let geometry = &settled(&self.geometry, self.input.as_deref(), access, warnings)?;
         if geometry.to.is_none() {

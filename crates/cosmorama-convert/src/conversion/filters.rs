@@ -102,7 +102,8 @@ impl Conversion {
 
 /// Returns the one picture that is made.
 fn target(settings: &Conversion, memory: MemoryBudget, parity: f64) -> Result<View> {
-    let files = ChosenFiles { files: Arc::clone(&settings.files), choice: Choice::default() };
+    let videos = Videos::new(settings.video.damaged);
+    let files = ChosenFiles { files: Arc::clone(&settings.files), choice: Choice::default(), videos };
     let access = Access { files: &files, memory, decoded: &DecodedPicture::default() };
     let geometry = settled(&settings.geometry, Some(settings.input.as_str()), access, &mut Vec::new())?;
     match &Picture::all(&geometry, None, Some(parity))?[..] {

@@ -18,6 +18,7 @@ use crate::job::coverage::Coverage;
 use crate::settings::{Conversion, GeometrySettings};
 use crate::source::{Access, ChosenFiles, DecodedPicture, Files, MemoryBudget};
 use crate::target::{Movement, Target};
+use crate::video::Videos;
 
 /// A world behind the input, whose files are found.
 pub(crate) struct FoundBackdrop {
@@ -84,7 +85,11 @@ impl FoundBackdrop {
             return Err(usage(format!("{BACKDROP} {name}: these are numbers, not light; give a picture of a world")));
         }
         let files: Arc<dyn Files> =
-            Arc::new(ChosenFiles { files: Arc::clone(&settings.files), choice: Choice::default() });
+            Arc::new(ChosenFiles {
+                files: Arc::clone(&settings.files),
+                choice: Choice::default(),
+                videos: Videos::new(settings.video.damaged),
+            });
         let decoded = DecodedPicture::up_to(memory.bytes / DECODED_PART);
         let access = Access { files: &*files, memory, decoded: &decoded };
         let mut said = Vec::new();
@@ -140,6 +145,7 @@ impl FoundBackdrop {
         input.frames = frames;
         content.fit_eyes(&mut input, front.target, warnings);
         let access = Access { files: &*files, memory: front.memory, decoded: &decoded };
+        input.expect_frames(access)?;
         let movement = if settings.geometry.in_path.is_some() {
             let frames = (front.frames, None);
             let moved = Movement::resolve(&settings.geometry, &front.target.views, frames, access, warnings)?;

@@ -12,6 +12,7 @@ use cosmorama_io::{
 
 use super::decoded_picture::DecodedPicture;
 use crate::source::MemoryBudget;
+use crate::video::{DamagedFrames, FrameName, Videos};
 
 /// Source of the bytes of inputs: disk, memory, an archive. Inputs are pictures, masks, st maps, calibrations, world
 /// files and Hugin projects. Patterns of frames and faces are always searched on disk.
@@ -29,20 +30,33 @@ pub trait Files: Debug + Send + Sync {
     fn choice(&self) -> Choice {
         Choice::default()
     }
+
+    /// Returns the videos whose frames are pictures here; `None` where videos are files like others.
+    fn videos(&self) -> Option<&Videos> {
+        None
+    }
 }
 
-/// Files of which only a part, or some of the channels, is read.
-#[derive(Clone, Debug)]
+/// Returns a source of inputs in which frames of videos are pictures, too. Videos are always read from disk.
+pub fn with_videos(files: Arc<dyn Files>) -> Arc<dyn Files> {
+    let videos = Videos::new(DamagedFrames::default());
+    Arc::new(ChosenFiles { files, choice: Choice::default(), videos })
+}
+
+/// Files of which only a part, or some of the channels, is read, with frames of videos.
+#[derive(Debug)]
 pub(crate) struct ChosenFiles {
     /// Source of bytes.
     pub(crate) files: Arc<dyn Files>,
     /// Selection of what is read.
     pub(crate) choice: Choice,
+    /// Videos whose frames are read.
+    pub(crate) videos: Videos,
 }
 
 impl Files for ChosenFiles {
     fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek>, IoError> {
-        self.files.open(path)
+        self.files.open(&FrameName::file(path))
     }
 
     fn holds(&self, path: &Path) -> bool {
@@ -51,6 +65,10 @@ impl Files for ChosenFiles {
 
     fn choice(&self) -> Choice {
         self.choice.clone()
+    }
+
+    fn videos(&self) -> Option<&Videos> {
+        Some(&self.videos)
     }
 }
 
@@ -105,6 +123,9 @@ impl Files for InMemory {
 /// # Errors
 /// When the file cannot be opened, is of no known format, or is damaged before its pixels.
 pub fn probe(files: &dyn Files, path: &Path) -> Result<Header, IoError> {
+    if let Some((name, videos)) = frame(files, path) {
+        return videos.header(&name);
+    }
     probe_chosen(files.open(path)?, path, &files.choice())
 }
 
@@ -121,7 +142,15 @@ pub fn read(files: &dyn Files, path: &Path, limits: &Limits) -> Result<ImageFile
 /// # Errors
 /// As [`read`].
 pub(crate) fn read_in(files: &dyn Files, path: &Path, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
+    if let Some((name, videos)) = frame(files, path) {
+        return videos.picture(&name, limits);
+    }
     read_chosen(files.open(path)?, path, (limits, pool), &files.choice())
+}
+
+/// Returns the frame of a video that a name in place of a file's means, with the videos that are read.
+fn frame<'a>(files: &'a dyn Files, path: &Path) -> Option<(FrameName, &'a Videos)> {
+    Some((FrameName::parse(path)?, files.videos()?))
 }
 
 /// Reads channels of a file beside its picture.

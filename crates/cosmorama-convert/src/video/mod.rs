@@ -17,12 +17,14 @@ mod settings;
 use std::path::Path;
 
 #[cfg(not(feature = "video"))]
-pub(crate) use absent::{MadeVideos, Videos};
+pub(crate) use absent::MadeVideos;
+#[cfg(not(feature = "video"))]
+pub use absent::Videos;
 pub(crate) use frame_name::FrameName;
 #[cfg(feature = "video")]
 pub(crate) use made::MadeVideos;
 #[cfg(feature = "video")]
-pub(crate) use read::Videos;
+pub use read::Videos;
 pub use settings::{DamagedFrames, VideoSettings};
 pub(crate) use settings::{VideoPlan, VideoSource};
 

@@ -24,6 +24,8 @@ pub enum DamagedFrames {
     Error,
     /// The frame before is shown again, with a warning.
     Hold,
+    /// There is no such frame in the output, with a warning.
+    Skip,
 }
 
 /// Plan of the videos that a conversion makes.

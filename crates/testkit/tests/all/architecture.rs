@@ -30,18 +30,19 @@ const ROOMS: [Room; 15] = [
 ];
 
 /// The rooms of `cosmorama-convert`, lowest floor first.
-const CONVERT_ROOMS: [Room; 11] = [
+const CONVERT_ROOMS: [Room; 12] = [
     ("diagnostic", &[]),
-    ("source", &["diagnostic"]),
+    ("video", &["diagnostic"]),
+    ("source", &["diagnostic", "video"]),
     ("packing", &["diagnostic"]),
-    ("settings", &["source"]),
+    ("settings", &["source", "video"]),
     ("detect", &["diagnostic", "source", "packing"]),
     ("input", &["diagnostic", "source", "packing", "settings", "detect"]),
-    ("target", &["diagnostic", "source", "packing", "settings"]),
+    ("target", &["diagnostic", "source", "packing", "settings", "video"]),
     ("colour", &["diagnostic", "settings", "input", "target"]),
-    ("job", &["diagnostic", "source", "settings", "detect", "input", "target", "colour"]),
-    ("engine", &["diagnostic", "source", "packing", "settings", "detect", "input", "target", "colour", "job"]),
-    ("conversion", &["diagnostic", "source", "settings", "input", "target", "colour", "job", "engine"]),
+    ("job", &["diagnostic", "source", "settings", "detect", "input", "target", "colour", "video"]),
+    ("engine", &["diagnostic", "source", "packing", "settings", "detect", "input", "target", "colour", "job", "video"]),
+    ("conversion", &["diagnostic", "source", "settings", "input", "target", "colour", "job", "engine", "video"]),
 ];
 
 /// Crates whose rooms have floors.

@@ -32,7 +32,7 @@ impl<'a> Behind<'a> {
     /// Prepares the backdrop of a job, if it has one.
     pub(super) fn new(job: &'a ConvertJob, progress: &dyn Progress) -> Result<Option<Box<Self>>, Stopped> {
         let Some(backdrop) = &job.backdrop else { return Ok(None) };
-        let engine = Engine::new(backdrop, WriteOptions::default(), progress)?;
+        let engine = Engine::new(backdrop, WriterOptions::default(), progress)?;
         let held = Mutex::new(Held { light: engine.frame_light(), frame: None });
         Ok(Some(Box::new(Self { engine, held, tally: Mutex::default() })))
     }
