@@ -298,7 +298,8 @@ fn unnamed(path: &Path) -> String {
 
 /// Extensions of videos, which hold many pictures.
 const VIDEOS: [&str; 17] = [
-    "mp4", "m4v", "mov", "mkv", "webm", "avi", "mxf", "ts", "mts", "m2ts", "mpg", "wmv", "flv", "ogv", "gif", "insv", "360",
+    "mp4", "m4v", "mov", "mkv", "webm", "avi", "mxf", "ts", "mts", "m2ts", "mpg", "wmv", "flv", "ogv", "gif", "insv",
+    "360",
 ];
 
 /// Returns whether a file is a video by its name.

@@ -78,6 +78,12 @@ mod sequence {
     mod verify;
 }
 
+#[cfg(feature = "video")]
+mod video {
+    mod conversions;
+    pub(crate) mod films;
+}
+
 mod usage {
     mod advice;
     mod help;

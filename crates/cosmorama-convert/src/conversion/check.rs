@@ -100,7 +100,8 @@ fn with_layers(mut settings: Conversion) -> Result<Conversion> {
 fn with_frames_at_times(settings: Conversion) -> Result<Conversion> {
     let Some(times) = &settings.times else { return Ok(settings) };
     let (input, files) = (&settings.input, with_videos(Arc::clone(&settings.files)));
-    let refused = |why: &str| Err(usage(format!("{FRAMES} {times}: {input} {why}; give numbers of frames, as in {FRAMES} 0-99")));
+    let refused =
+        |why: &str| Err(usage(format!("{FRAMES} {times}: {input} {why}; give numbers of frames, as in {FRAMES} 0-99")));
     let video = ViewFiles::new(Path::new(input));
     let Some((video, videos)) = video.video().zip(files.videos()) else {
         return refused("is no video, whose frames have times");

@@ -21,6 +21,7 @@ use crate::job::options::filter;
 use crate::settings::{GeometrySettings, LimitSettings};
 use crate::source::{Access, ChosenFiles, DecodedPicture, Disk, Files, MemoryBudget};
 use crate::target::{Movement, Picture, TargetView, aspect, time};
+use crate::video::Videos;
 
 /// Settings of an explanation, possibly for an input that does not exist yet.
 #[derive(Clone, Debug)]

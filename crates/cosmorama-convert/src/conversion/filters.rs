@@ -22,6 +22,7 @@ use crate::input::spec_files::st_map::settled;
 use crate::settings::{Conversion, LightNormalisation, LightSettings};
 use crate::source::{Access, ChosenFiles, DecodedPicture, MemoryBudget, read};
 use crate::target::Picture;
+use crate::video::Videos;
 
 /// One conversion, checked, on which filters are to be measured.
 pub struct FilterTrials {

@@ -148,7 +148,8 @@ impl Input {
 
     /// Visits every file that is read.
     pub(crate) fn files(&self) -> impl Iterator<Item = PathBuf> {
-        let of_frame = |frame: &Option<u64>| self.present().map(|(input, ..)| input.files.file(*frame)).collect::<Vec<_>>();
+        let of_frame =
+            |frame: &Option<u64>| self.present().map(|(input, ..)| input.files.file(*frame)).collect::<Vec<_>>();
         self.frames.iter().flat_map(of_frame).chain(self.beside.iter().cloned())
     }
 

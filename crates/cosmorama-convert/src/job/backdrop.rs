@@ -84,12 +84,11 @@ impl FoundBackdrop {
         if let Content::Directions(_) = content {
             return Err(usage(format!("{BACKDROP} {name}: these are numbers, not light; give a picture of a world")));
         }
-        let files: Arc<dyn Files> =
-            Arc::new(ChosenFiles {
-                files: Arc::clone(&settings.files),
-                choice: Choice::default(),
-                videos: Videos::new(settings.video.damaged),
-            });
+        let files: Arc<dyn Files> = Arc::new(ChosenFiles {
+            files: Arc::clone(&settings.files),
+            choice: Choice::default(),
+            videos: Videos::new(settings.video.damaged),
+        });
         let decoded = DecodedPicture::up_to(memory.bytes / DECODED_PART);
         let access = Access { files: &*files, memory, decoded: &decoded };
         let mut said = Vec::new();

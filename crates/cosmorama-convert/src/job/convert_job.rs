@@ -27,8 +27,8 @@ use crate::job::coverage::{Coverage, whole_worlds};
 use crate::job::origin::Origin;
 use crate::settings::{BlurMethod, Conversion, GeometrySettings, LightSettings};
 use crate::source::{Access, ChosenFiles, DecodedPicture, Files, MemoryBudget};
-use crate::video::Videos;
 use crate::target::{Movement, Target, TargetView, name_of_level, of_light, shape_warning, time, whole_chain};
+use crate::video::Videos;
 
 /// A conversion, ready to run.
 pub(crate) struct ConvertJob {

@@ -182,7 +182,8 @@ mod tests {
             frames.iter().for_each(|frame| std::fs::write(files.path(Some(*frame)), "").expect("a file"));
         }
         let faces: Vec<_> = faces.iter().map(|(face, _)| *face).zip(&files).collect();
-        let error = find_of_faces(&pattern, &faces, &Disk, Some(&FrameList::new([1, 2]))).expect_err("frames are missing");
+        let error =
+            find_of_faces(&pattern, &faces, &Disk, Some(&FrameList::new([1, 2]))).expect_err("frames are missing");
         error.to_string().replace(&format!("{}/", folder.path().display()), "")
     }
 

@@ -13,7 +13,15 @@ use cosmorama_video::{
 pub(super) fn header(info: &VideoInfo) -> Header {
     let (width, height) = info.size();
     let channels = if info.has_alpha { Channels::Rgba } else { Channels::Rgb };
-    Header { format: Format::Video, width, height, channels, depth: depth(info.bits), metadata: metadata(info), window: None }
+    Header {
+        format: Format::Video,
+        width,
+        height,
+        channels,
+        depth: depth(info.bits),
+        metadata: metadata(info),
+        window: None,
+    }
 }
 
 fn depth(bits: u32) -> Depth {
@@ -52,7 +60,10 @@ pub(super) fn facts(info: &VideoInfo) -> Vec<(&'static str, String)> {
         ("frame_rate", Some(format!("{}{varies}", info.rate))),
         ("seconds", info.duration.map(|seconds| format!("{seconds:.3}"))),
         ("range", Some(info.range().name().to_owned())),
-        ("turned", turned.then(|| "as its rotation asks (width and height are those of the upright picture)".to_owned())),
+        (
+            "turned",
+            turned.then(|| "as its rotation asks (width and height are those of the upright picture)".to_owned()),
+        ),
         ("spherical", info.spatial.as_ref().map(spherical)),
         ("sound", of_kind(StreamKind::Audio)),
         ("subtitles", of_kind(StreamKind::Subtitle)),
@@ -73,7 +84,9 @@ fn spherical(tags: &SpatialTags) -> String {
     let projection = match tags.projection {
         None => "flat".to_owned(),
         Some(SphericalProjection::Mesh) => "mesh".to_owned(),
-        Some(SphericalProjection::Cubemap { layout, padding }) => format!("cubemap, layout {layout}, padding {padding}"),
+        Some(SphericalProjection::Cubemap { layout, padding }) => {
+            format!("cubemap, layout {layout}, padding {padding}")
+        }
         Some(SphericalProjection::Equirect(bounds)) if bounds == Bounds::default() => "equirectangular".to_owned(),
         Some(SphericalProjection::Equirect(Bounds { top, bottom, left, right })) => {
             let part = |cut: u32| format!("{:.2} %", f64::from(cut) / WHOLE * 100.0);
@@ -109,7 +122,8 @@ fn not_followed(tags: &SpatialTags) -> Option<String> {
         ));
     }
     (tags.projection.is_some() && text_of(tags, (2, 1)).is_none()).then(|| {
-        "its spherical tags name a projection that is not read: a mesh, padded faces, or a part beside the middle".to_owned()
+        "its spherical tags name a projection that is not read: a mesh, padded faces, or a part beside the middle"
+            .to_owned()
     })
 }
 

@@ -121,7 +121,9 @@ impl MadeVideos {
             let Written { notes, .. } = writer.finish().map_err(foreign)?;
             let path = path.display();
             told.extend(
-                notes.iter().map(|note| Diagnostic::warning(Code::MetadataLost, format!("{path}: {note}")).about(&path)),
+                notes
+                    .iter()
+                    .map(|note| Diagnostic::warning(Code::MetadataLost, format!("{path}: {note}")).about(&path)),
             );
         }
         Ok(told)
@@ -187,8 +189,9 @@ fn times(
     }
     let Some((info, frames)) = source else {
         if plan.frames > 1 {
-            let message =
-                format!("the video gets {USUAL} frames a second, since nothing tells its rate; give another with {FPS}");
+            let message = format!(
+                "the video gets {USUAL} frames a second, since nothing tells its rate; give another with {FPS}"
+            );
             told.push(Diagnostic::warning(Code::FrameRate, message));
         }
         return Ok((even(USUAL), Vec::new()));

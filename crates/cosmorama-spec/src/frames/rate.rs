@@ -64,9 +64,9 @@ impl FromStr for FrameRate {
             let (frames, seconds) = text.split_once('/').unwrap_or((text, "1"));
             Self::of_fraction(frames.parse().ok()?, seconds.parse().ok()?)
         };
-        Self::of_decimal(text).or_else(fraction).ok_or_else(|| {
-            "expected a number of frames a second above 0, such as 25, 30000/1001 or 29.97".to_owned()
-        })
+        Self::of_decimal(text)
+            .or_else(fraction)
+            .ok_or_else(|| "expected a number of frames a second above 0, such as 25, 30000/1001 or 29.97".to_owned())
     }
 }
 
@@ -93,9 +93,14 @@ mod tests {
 
     #[test]
     fn rates_are_exact() {
-        for (text, printed) in
-            [("25", "25"), ("50/2", "25"), ("29.97", "30000/1001"), ("23.976", "24000/1001"), ("59.94", "60000/1001"), ("12.5", "25/2")]
-        {
+        for (text, printed) in [
+            ("25", "25"),
+            ("50/2", "25"),
+            ("29.97", "30000/1001"),
+            ("23.976", "24000/1001"),
+            ("59.94", "60000/1001"),
+            ("12.5", "25/2"),
+        ] {
             assert_eq!(rate(text).to_string(), printed);
             assert_eq!(rate(printed), rate(text));
         }

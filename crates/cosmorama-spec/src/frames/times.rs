@@ -23,7 +23,9 @@ pub struct TimeRanges(Vec<Range>);
 
 /// Reason why a list of times cannot be understood.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("times {list}: {reason}; expected times such as 00:01:00-00:01:10, or 00:00:02.5 for the frame that is shown then")]
+#[error(
+    "times {list}: {reason}; expected times such as 00:01:00-00:01:10, or 00:00:02.5 for the frame that is shown then"
+)]
 pub struct TimeRangesError {
     /// List as typed.
     pub list: String,
@@ -198,7 +200,9 @@ mod tests {
     fn what_is_no_time() {
         assert!(refused("00:00:02-00:00:01").contains("ends before it begins"));
         assert!(refused("00:00:02-00:00:02").contains("ends before it begins"));
-        for wrong in ["00:60:00", "00:00:60", "00:00:", "a:b:c", "00:00:01-5", "00:00:1.0000000001", "00:00:1.", "-0:0:1"] {
+        for wrong in
+            ["00:60:00", "00:00:60", "00:00:", "a:b:c", "00:00:01-5", "00:00:1.0000000001", "00:00:1.", "-0:0:1"]
+        {
             assert!(refused(wrong).contains("no time of hours:minutes:seconds"), "{wrong}");
         }
     }

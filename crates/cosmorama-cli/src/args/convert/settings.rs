@@ -77,7 +77,11 @@ impl From<ExplainArgs> for ExplanationSettings {
 fn moved(geometry: GeometryArgs, camera: CameraArgs) -> GeometrySettings {
     let angles = [geometry.yaw, geometry.pitch, geometry.roll];
     let moves = angles.iter().chain(&camera.fov).any(Ramp::moves);
-    let poses = |file: String| PoseFile { file, fps: camera.fps.map(FrameRate::per_second), smoothness: camera.path_curve.unwrap_or_default() };
+    let poses = |file: String| PoseFile {
+        file,
+        fps: camera.fps.map(FrameRate::per_second),
+        smoothness: camera.path_curve.unwrap_or_default(),
+    };
     let in_path = camera.in_path.map(poses);
     let movement = match camera.path {
         Some(file) => Some(CameraMovement::Path(poses(file))),

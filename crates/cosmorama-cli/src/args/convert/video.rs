@@ -75,7 +75,9 @@ impl VideoArgs {
         }
         let given = [(self.video_codec.is_some(), "--video-codec"), (self.video_args.is_some(), "--video-args")];
         let (_, option) = given.into_iter().find(|(is_given, _)| *is_given)?;
-        Some(format!("{option} is for a video, but {output} is none; leave {option} out, or name the output .mp4, .mov, .mkv or .webm"))
+        Some(format!(
+            "{option} is for a video, but {output} is none; leave {option} out, or name the output .mp4, .mov, .mkv or .webm"
+        ))
     }
 }
 
@@ -120,7 +122,10 @@ mod tests {
     fn words_are_split_as_by_a_shell() {
         let split = |text: &str| words(text).map(|words| words.0);
         assert_eq!(split(" -crf 20  -preset slow "), Ok(["-crf", "20", "-preset", "slow"].map(str::to_owned).to_vec()));
-        assert_eq!(split("-metadata 'title=A b' x\"\" \"it's\""), Ok(["-metadata", "title=A b", "x", "it's"].map(str::to_owned).to_vec()));
+        assert_eq!(
+            split("-metadata 'title=A b' x\"\" \"it's\""),
+            Ok(["-metadata", "title=A b", "x", "it's"].map(str::to_owned).to_vec())
+        );
         assert_eq!((split(""), split("''")), (Ok(Vec::new()), Ok(vec![String::new()])));
         assert!(split("-vf 'a").is_err_and(|error| error.contains("' is not closed")));
     }

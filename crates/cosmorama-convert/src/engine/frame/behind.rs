@@ -5,13 +5,12 @@ use std::sync::{Mutex, MutexGuard};
 use cosmorama::camera::View;
 use cosmorama::raster::{Image, Rgba};
 use cosmorama::render::{Progress, Stopped};
-use cosmorama_io::WriteOptions;
 use rayon::prelude::*;
 
 use super::pictures::lock;
 use crate::diagnostic::{Diagnostic, Result};
 use crate::engine::warnings::Tally;
-use crate::engine::{Engine, FrameFile, FrameLight, Stages, ViewImage, Which};
+use crate::engine::{Engine, FrameFile, FrameLight, Stages, ViewImage, Which, WriterOptions};
 use crate::job::ConvertJob;
 
 /// The world behind the input, with its light in the frame that is made.
