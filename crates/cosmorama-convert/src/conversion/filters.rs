@@ -22,7 +22,6 @@ use crate::input::spec_files::st_map::settled;
 use crate::settings::{Conversion, LightNormalisation, LightSettings};
 use crate::source::{Access, ChosenFiles, DecodedPicture, MemoryBudget, read};
 use crate::target::Picture;
-use crate::video::Videos;
 
 /// One conversion, checked, on which filters are to be measured.
 pub struct FilterTrials {
@@ -103,8 +102,7 @@ impl Conversion {
 
 /// Returns the one picture that is made.
 fn target(settings: &Conversion, memory: MemoryBudget, parity: f64) -> Result<View> {
-    let videos = Videos::new(settings.video.damaged);
-    let files = ChosenFiles { files: Arc::clone(&settings.files), choice: Choice::default(), videos };
+    let files = ChosenFiles::new(Arc::clone(&settings.files), Choice::default(), settings.video.damaged);
     let access = Access { files: &files, memory, decoded: &DecodedPicture::default() };
     let geometry = settled(&settings.geometry, Some(settings.input.as_str()), access, &mut Vec::new())?;
     match &Picture::all(&geometry, None, Some(parity))?[..] {

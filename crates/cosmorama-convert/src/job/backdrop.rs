@@ -18,7 +18,6 @@ use crate::job::coverage::Coverage;
 use crate::settings::{Conversion, GeometrySettings};
 use crate::source::{Access, ChosenFiles, DecodedPicture, Files, MemoryBudget};
 use crate::target::{Movement, Target};
-use crate::video::Videos;
 
 /// A world behind the input, whose files are found.
 pub(crate) struct FoundBackdrop {
@@ -84,11 +83,8 @@ impl FoundBackdrop {
         if let Content::Directions(_) = content {
             return Err(usage(format!("{BACKDROP} {name}: these are numbers, not light; give a picture of a world")));
         }
-        let files: Arc<dyn Files> = Arc::new(ChosenFiles {
-            files: Arc::clone(&settings.files),
-            choice: Choice::default(),
-            videos: Videos::new(settings.video.damaged),
-        });
+        let files = ChosenFiles::new(Arc::clone(&settings.files), Choice::default(), settings.video.damaged);
+        let files: Arc<dyn Files> = Arc::new(files);
         let decoded = DecodedPicture::up_to(memory.bytes / DECODED_PART);
         let access = Access { files: &*files, memory, decoded: &decoded };
         let mut said = Vec::new();

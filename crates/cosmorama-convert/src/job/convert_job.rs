@@ -28,7 +28,6 @@ use crate::job::origin::Origin;
 use crate::settings::{BlurMethod, Conversion, GeometrySettings, LightSettings};
 use crate::source::{Access, ChosenFiles, DecodedPicture, Files, MemoryBudget};
 use crate::target::{Movement, Target, TargetView, name_of_level, of_light, shape_warning, time, whole_chain};
-use crate::video::Videos;
 
 /// A conversion, ready to run.
 pub(crate) struct ConvertJob {
@@ -92,11 +91,8 @@ fn chosen(settings: &Conversion, content: Content) -> Arc<dyn Files> {
     let (part, channels) = (settings.part.clone(), settings.channels.clone());
     let is_exr = Format::from_extension(Path::new(&settings.output)).is_ok_and(|format| format == Format::Exr);
     let without_picture = content == Content::World && is_exr && settings.light.is_none();
-    Arc::new(ChosenFiles {
-        files: Arc::clone(&settings.files),
-        choice: Choice { part, channels, without_picture },
-        videos: Videos::new(settings.video.damaged),
-    })
+    let choice = Choice { part, channels, without_picture };
+    Arc::new(ChosenFiles::new(Arc::clone(&settings.files), choice, settings.video.damaged))
 }
 
 /// Resolves the movement of the camera and of the input, which gives a still input its frames.
@@ -267,7 +263,7 @@ impl ConvertJob {
         if purpose == Purpose::Light {
             return Ok(());
         }
-        let has_place = !settings.strip && self.target.format != Format::Video;
+        let has_place = !settings.strip && !self.target.format.is_video();
         self.origin = has_place.then(|| Origin::of(self, settings));
         let mut outputs = std::mem::take(&mut self.outputs);
         let left = outputs.leave_finished(settings.existing, self);

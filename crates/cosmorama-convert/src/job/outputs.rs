@@ -1,7 +1,6 @@
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
-use cosmorama_io::Format;
 use cosmorama_io::pending::{NewFolders, Pending, place};
 
 use crate::diagnostic::{Code, Diagnostic, FRAMES, OVERWRITE, RESUME, Result, bail, failure, usage, usage_as};
@@ -70,7 +69,7 @@ impl Outputs {
         for &frame in &input.frames {
             let path = |file: &TargetFile| file.files.file(frame);
             let files: Vec<(usize, PathBuf)> = target.files.iter().map(path).enumerate().collect();
-            let is_begun = target.format == Format::Video && !frames.is_empty();
+            let is_begun = target.format.is_video() && !frames.is_empty();
             for (_, path) in files.iter().filter(|_| !is_begun) {
                 check_apart(path, &inputs)?;
                 // Not the folder behind a link: if that is missing, its disk may not be mounted.
@@ -150,7 +149,7 @@ fn check_frame_markers(args: &Conversion, input: &Input, target: &Target) -> Res
 
 /// Refuses to go on with a video.
 fn check_resume(args: &Conversion, target: &Target) -> Result<()> {
-    if target.format == Format::Video && args.existing == Existing::Resume {
+    if target.format.is_video() && args.existing == Existing::Resume {
         return Err(usage(format!(
             "{RESUME}: {} is a video, which is made whole or not at all; leave {RESUME} out, or name frames, as in frames/####.png",
             args.output

@@ -12,7 +12,7 @@ use cosmorama_io::{
 
 use super::decoded_picture::DecodedPicture;
 use crate::source::MemoryBudget;
-use crate::video::{DamagedFrames, FrameName, Videos};
+use crate::video::{DamagedFrames, FrameName, RawFiles, Videos};
 
 /// Source of the bytes of inputs: disk, memory, an archive. Inputs are pictures, masks, st maps, calibrations, world
 /// files and Hugin projects. Patterns of frames and faces are always searched on disk.
@@ -21,7 +21,7 @@ pub trait Files: Debug + Send + Sync {
     ///
     /// # Errors
     /// When the file cannot be opened.
-    fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek>, IoError>;
+    fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek + Send>, IoError>;
 
     /// Returns whether a file is held here, whatever is on disk.
     fn holds(&self, path: &Path) -> bool;
@@ -37,10 +37,10 @@ pub trait Files: Debug + Send + Sync {
     }
 }
 
-/// Returns a source of inputs in which frames of videos are pictures, too. Videos are always read from disk.
+/// Returns a source of inputs in which frames of videos are pictures, too. Videos are always read from disk, and streams of raw pictures
+/// from `files`.
 pub fn with_videos(files: Arc<dyn Files>) -> Arc<dyn Files> {
-    let videos = Videos::new(DamagedFrames::default());
-    Arc::new(ChosenFiles { files, choice: Choice::default(), videos })
+    Arc::new(ChosenFiles::new(files, Choice::default(), DamagedFrames::default()))
 }
 
 /// Files of which only a part, or some of the channels, is read, with frames of videos.
@@ -54,8 +54,26 @@ pub(crate) struct ChosenFiles {
     pub(crate) videos: Videos,
 }
 
+/// Source of the bytes of streams of raw pictures.
+#[derive(Debug)]
+struct Streams(Arc<dyn Files>);
+
+impl RawFiles for Streams {
+    fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek + Send>, IoError> {
+        self.0.open(path)
+    }
+}
+
+impl ChosenFiles {
+    /// Creates files of which a part is read, with an answer to damaged frames of videos.
+    pub(crate) fn new(files: Arc<dyn Files>, choice: Choice, damaged: DamagedFrames) -> Self {
+        let videos = Videos::new(damaged, Arc::new(Streams(Arc::clone(&files))));
+        Self { files, choice, videos }
+    }
+}
+
 impl Files for ChosenFiles {
-    fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek>, IoError> {
+    fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek + Send>, IoError> {
         self.files.open(&FrameName::file(path))
     }
 
@@ -77,7 +95,7 @@ impl Files for ChosenFiles {
 pub struct Disk;
 
 impl Files for Disk {
-    fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek>, IoError> {
+    fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek + Send>, IoError> {
         Ok(Box::new(open(path)?))
     }
 
@@ -106,7 +124,7 @@ impl Debug for InMemory {
 }
 
 impl Files for InMemory {
-    fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek>, IoError> {
+    fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek + Send>, IoError> {
         match self.files.get(path) {
             Some(bytes) => Ok(Box::new(Cursor::new(Arc::clone(bytes)))),
             None => Disk.open(path),
@@ -218,7 +236,7 @@ impl Access<'_> {
     }
 
     /// Opens a file other than a picture. The caller adds to errors what was expected.
-    fn open(self, path: &Path) -> io::Result<Box<dyn ReadSeek>> {
+    fn open(self, path: &Path) -> io::Result<Box<dyn ReadSeek + Send>> {
         self.files.open(path).map_err(|error| match error {
             IoError::Open { source, .. } => source,
             other => io::Error::other(other),

@@ -11,7 +11,7 @@ use crate::settings::GeometrySettings;
 use crate::source::ViewFiles;
 use crate::target::Picture;
 use crate::target::picture::world_of;
-use crate::video::is_video;
+use crate::video::{RawKind, is_video};
 
 /// An image to make.
 #[derive(Clone)]
@@ -193,7 +193,7 @@ impl Target {
 fn format_of(output: &str) -> Result<Format> {
     let path = Path::new(output);
     if is_video(path) {
-        return Ok(Format::Video);
+        return Ok(RawKind::of(path).map_or(Format::Video, RawKind::format));
     }
     Format::from_extension(path).map_err(|error| usage_as(Code::OutputFormat, error.to_string()))
 }

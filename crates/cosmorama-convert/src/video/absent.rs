@@ -1,17 +1,18 @@
 //! Stands in for videos in programs built without them: no file is taken for a video, so that none of this is ever called.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use cosmorama::raster::{EncodedImage, FramePool};
 use cosmorama_io::pending::Unfinished;
 use cosmorama_io::{Header, ImageFile, IoError, Limits};
 use cosmorama_spec::{FrameRate, Spec};
 
-use super::{DamagedFrames, FrameName, VideoPlan};
+use super::{DamagedFrames, FrameName, RawFiles, VideoPlan};
 use crate::diagnostic::{Diagnostic, Result};
 
 /// Videos among the inputs: none.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Videos;
 
 /// Videos that are made: none.
@@ -23,7 +24,7 @@ fn refusal(video: &Path) -> IoError {
 }
 
 impl Videos {
-    pub(crate) fn new(_: DamagedFrames) -> Self {
+    pub(crate) fn new(_: DamagedFrames, _: Arc<dyn RawFiles>) -> Self {
         Self
     }
 

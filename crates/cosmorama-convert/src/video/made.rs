@@ -11,11 +11,12 @@ use cosmorama_io::pending::Unfinished;
 use cosmorama_spec::FrameRate;
 use cosmorama_video::{
     Carried, Codec, ColourTags, Container, Ffmpeg, FrameTimes, Ratio, Timeline, VideoError, VideoInfo, VideoWriter,
-    WriteSettings, Written,
+    WriteSettings,
 };
 
+use super::raw::RawWriter;
 use super::read::foreign;
-use super::{DamagedFrames, VideoPlan, Videos, described};
+use super::{DamagedFrames, RawKind, VideoPlan, Videos, described};
 use crate::diagnostic::{Code, Diagnostic, FPS, FRAMES, Result, VIDEO_CODEC, usage};
 
 /// Videos that a conversion makes.
@@ -33,13 +34,20 @@ struct MadeVideo {
 
 #[derive(Debug)]
 struct State {
-    writer: Option<VideoWriter>,
+    writer: Option<Encoder>,
     /// Number of frames that the encoder has.
     given: usize,
     /// Pictures that came before their turn.
     early: BTreeMap<usize, EncodedImage>,
     /// Places of frames that are left out.
     left_out: BTreeSet<usize>,
+}
+
+/// Encoder of a video.
+#[derive(Debug)]
+enum Encoder {
+    Film(Box<VideoWriter>),
+    Raw(Box<RawWriter>),
 }
 
 /// Rate of a video when nothing else tells one.
@@ -49,12 +57,12 @@ impl MadeVideos {
     /// Checks the settings of videos before anything is read for them.
     pub(crate) fn check(outputs: &[PathBuf], plan: &VideoPlan) -> Result<()> {
         codec(plan)?;
-        for path in outputs {
+        for path in outputs.iter().filter(|path| RawKind::of(path).is_none()) {
             if Container::of_path(path).is_none() {
                 return Err(foreign(VideoError::UnknownContainer { path: path.clone() }).into());
             }
+            Ffmpeg::find().map_err(foreign)?;
         }
-        Ffmpeg::find().map_err(foreign)?;
         Ok(())
     }
 
@@ -68,15 +76,23 @@ impl MadeVideos {
         if outputs.is_empty() {
             return Ok(Self::default());
         }
-        let ffmpeg = Ffmpeg::find().map_err(foreign)?;
-        let mut source = None;
+        let (mut info, mut rate) = (None, plan.settings.rate);
         if let (Some(shown), Some(videos)) = (&plan.source, videos) {
-            source = Some((videos.info(&shown.video)?, &shown.frames[..]));
+            info = videos.info(&shown.video)?;
+            rate = rate.or(videos.rate(&shown.video)?);
         }
-        let source = source.as_ref().map(|(info, frames)| (info, *frames));
-        let (times, stamps) = times(&ffmpeg, plan, source, told)?;
+        let source = info.as_ref().zip(plan.source.as_ref().map(|source| &source.frames[..]));
+        let (times, stamps) = times((rate, plan), source, told)?;
         let mut all = Vec::new();
         for (path, size) in outputs {
+            let state = |writer| State { writer: Some(writer), given: 0, early: BTreeMap::new(), left_out: BTreeSet::new() };
+            if let Some(kind) = RawKind::of(path) {
+                let writer = RawWriter::create(kind, path, (*size, plan.depth, rate_of(times)), unfinished)?;
+                let video = MadeVideo { times: Vec::new(), state: Mutex::new(state(Encoder::Raw(Box::new(writer)))) };
+                all.push((path.clone(), video));
+                continue;
+            }
+            let ffmpeg = Ffmpeg::find().map_err(foreign)?;
             let settings = WriteSettings {
                 times,
                 depth: plan.depth,
@@ -91,8 +107,8 @@ impl MadeVideos {
                 ..WriteSettings::new(*size, Ratio::ONE)
             };
             let writer = VideoWriter::create(&ffmpeg, path, settings, unfinished).map_err(foreign)?;
-            let state = State { writer: Some(writer), given: 0, early: BTreeMap::new(), left_out: BTreeSet::new() };
-            all.push((path.clone(), MadeVideo { times: stamps.clone(), state: Mutex::new(state) }));
+            let video = MadeVideo { times: stamps.clone(), state: Mutex::new(state(Encoder::Film(Box::new(writer)))) };
+            all.push((path.clone(), video));
         }
         Ok(Self { all })
     }
@@ -105,12 +121,12 @@ impl MadeVideos {
     /// Gives the picture of a frame to a video, by the frame's place among all. Its memory goes to a pool.
     pub(crate) fn put(&self, path: &Path, place: usize, image: EncodedImage, pool: &FramePool) -> Result<(), IoError> {
         let Some((_, video)) = self.all.iter().find(|(other, _)| other == path) else { return Ok(()) };
-        video.put(place, image, pool).map_err(foreign)
+        video.put(path, (place, image), pool).map_err(foreign)
     }
 
     /// Leaves a frame out of all videos.
     pub(crate) fn leave_out(&self, place: usize, pool: &FramePool) -> Result<(), IoError> {
-        self.all.iter().try_for_each(|(_, video)| video.leave_out(place, pool)).map_err(foreign)
+        self.all.iter().try_for_each(|(path, video)| video.leave_out(path, place, pool)).map_err(foreign)
     }
 
     /// Waits for the encoders. The videos then appear under their names. Returns notes about what they could not hold.
@@ -118,7 +134,7 @@ impl MadeVideos {
         let mut told = Vec::new();
         for (path, video) in &self.all {
             let Some(writer) = video.state().writer.take() else { continue };
-            let Written { notes, .. } = writer.finish().map_err(foreign)?;
+            let notes = writer.finish().map_err(foreign)?;
             let path = path.display();
             told.extend(
                 notes
@@ -137,21 +153,21 @@ impl MadeVideo {
 
     /// Takes a picture. Threads wait here for the encoder, which waits for no thread. Pictures that come early are as many as are in
     /// flight.
-    fn put(&self, place: usize, image: EncodedImage, pool: &FramePool) -> Result<(), VideoError> {
+    fn put(&self, path: &Path, (place, image): (usize, EncodedImage), pool: &FramePool) -> Result<(), VideoError> {
         let mut state = self.state();
         state.early.insert(place, image);
-        self.write(&mut state, pool)
+        self.write(path, &mut state, pool)
     }
 
     /// Leaves a frame out.
-    fn leave_out(&self, place: usize, pool: &FramePool) -> Result<(), VideoError> {
+    fn leave_out(&self, path: &Path, place: usize, pool: &FramePool) -> Result<(), VideoError> {
         let mut state = self.state();
         state.left_out.insert(place);
-        self.write(&mut state, pool)
+        self.write(path, &mut state, pool)
     }
 
     /// Gives the encoder the pictures whose turn it is.
-    fn write(&self, state: &mut State, pool: &FramePool) -> Result<(), VideoError> {
+    fn write(&self, path: &Path, state: &mut State, pool: &FramePool) -> Result<(), VideoError> {
         loop {
             let given = state.given;
             let image = state.early.remove(&given);
@@ -160,9 +176,32 @@ impl MadeVideo {
             }
             state.given += 1;
             let (Some(image), Some(writer)) = (image, &mut state.writer) else { continue };
-            writer.write(&image, self.times.get(given).copied())?;
+            writer.write(path, &image, self.times.get(given).copied())?;
             pool.give(image.into_samples());
         }
+    }
+}
+
+impl Encoder {
+    fn write(&mut self, path: &Path, image: &EncodedImage, time: Option<i64>) -> Result<(), VideoError> {
+        match self {
+            Self::Film(writer) => writer.write(image, time),
+            Self::Raw(writer) => writer.write(image, &path.display().to_string()),
+        }
+    }
+
+    /// Finishes the file, and returns notes about what it cannot hold.
+    fn finish(self) -> Result<Vec<String>, VideoError> {
+        match self {
+            Self::Film(writer) => Ok(writer.finish()?.notes),
+            Self::Raw(writer) => writer.finish().map(|()| Vec::new()),
+        }
+    }
+}
+
+fn rate_of(times: FrameTimes) -> Ratio {
+    match times {
+        FrameTimes::Even { rate } | FrameTimes::Stamps { rate, .. } => rate,
     }
 }
 
@@ -175,8 +214,7 @@ fn codec(plan: &VideoPlan) -> Result<Option<Codec>> {
 
 /// Returns the times of the frames, as settings and, of a variable rate, one by one.
 fn times(
-    ffmpeg: &Ffmpeg,
-    plan: &VideoPlan,
+    (rate, plan): (Option<FrameRate>, &VideoPlan),
     source: Option<(&VideoInfo, &[u64])>,
     told: &mut Vec<Diagnostic>,
 ) -> Result<(FrameTimes, Vec<i64>)> {
@@ -184,7 +222,7 @@ fn times(
         let ratio = Ratio::new(rate.frames.into(), rate.seconds.into()).unwrap_or(Ratio::ONE);
         FrameTimes::Even { rate: ratio }
     };
-    if let Some(rate) = plan.settings.rate {
+    if let Some(rate) = rate {
         return Ok((even(rate), Vec::new()));
     }
     let Some((info, frames)) = source else {
@@ -198,7 +236,7 @@ fn times(
     };
     let is_forward = frames.windows(2).all(|pair| pair[0] < pair[1]);
     if info.is_variable && is_forward {
-        let timeline = ffmpeg.timeline(info).map_err(foreign)?;
+        let timeline = Ffmpeg::find().and_then(|ffmpeg| ffmpeg.timeline(info)).map_err(foreign)?;
         let stamps: Option<Vec<i64>> = frames.iter().map(|frame| timeline.time(*frame)).collect();
         if let (Timeline::Listed { time_base, .. }, Some(stamps)) = (&timeline, stamps) {
             let message = format!(

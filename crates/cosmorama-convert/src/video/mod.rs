@@ -11,6 +11,8 @@ mod frame_name;
 #[cfg(feature = "video")]
 mod made;
 #[cfg(feature = "video")]
+mod raw;
+#[cfg(feature = "video")]
 mod read;
 mod settings;
 
@@ -26,9 +28,9 @@ pub(crate) use made::MadeVideos;
 #[cfg(feature = "video")]
 pub use read::Videos;
 pub use settings::{DamagedFrames, VideoSettings};
-pub(crate) use settings::{VideoPlan, VideoSource};
+pub(crate) use settings::{RawFiles, RawKind, VideoPlan, VideoSource};
 
 /// Returns whether a file is taken for a video, by its name. Without the feature `video`, none is.
 pub(crate) fn is_video(path: &Path) -> bool {
-    cfg!(feature = "video") && cosmorama_io::is_video(path)
+    cfg!(feature = "video") && (cosmorama_io::is_video(path) || RawKind::of(path).is_some())
 }

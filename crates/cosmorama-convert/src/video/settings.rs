@@ -1,6 +1,8 @@
-use std::path::PathBuf;
+use std::fmt::Debug;
+use std::path::{Path, PathBuf};
 
 use cosmorama::raster::{Channels, Depth, Primaries, Transfer};
+use cosmorama_io::{Format, IoError, ReadSeek};
 use cosmorama_spec::{FrameRate, Spec};
 
 /// Settings of videos, read and made.
@@ -56,4 +58,42 @@ pub(crate) struct VideoSource {
     pub(crate) video: PathBuf,
     /// Numbers of the frames, in the order of the output.
     pub(crate) frames: Vec<u64>,
+}
+
+/// Kind of a stream of raw pictures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum RawKind {
+    /// YUV4MPEG2.
+    Y4m,
+    /// PGM, PPM or PAM.
+    Pam,
+    /// Portable float maps.
+    Pfm,
+}
+
+impl RawKind {
+    /// Returns the kind of a file, by its extension; `None` for other files.
+    pub(crate) fn of(path: &Path) -> Option<Self> {
+        let extension = path.extension()?.to_str()?.to_ascii_lowercase();
+        match extension.as_str() {
+            "y4m" => Some(Self::Y4m),
+            "pam" => Some(Self::Pam),
+            "pfm" => Some(Self::Pfm),
+            _ => None,
+        }
+    }
+
+    /// Returns the format of its pictures.
+    pub(crate) fn format(self) -> Format {
+        match self {
+            Self::Y4m | Self::Pam => Format::Video,
+            Self::Pfm => Format::Pfm,
+        }
+    }
+}
+
+/// Source of the bytes of streams.
+pub(crate) trait RawFiles: Debug + Send + Sync {
+    /// Opens a stream.
+    fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek + Send>, IoError>;
 }

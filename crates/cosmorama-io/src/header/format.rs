@@ -27,6 +27,8 @@ pub enum Format {
     Dds,
     /// Frame of a video, or of a stream of pictures; this crate neither reads nor writes its pixels.
     Video,
+    /// Portable float map in a stream of pictures, as of a video.
+    Pfm,
 }
 
 /// Primaries that a format's files can name.
@@ -160,6 +162,9 @@ impl Properties {
         ..Self::PLAIN
     };
 
+    const PFM: Self =
+        Self { name: "PFM", depths: &[Depth::Float], channels: &[Channels::Rgb], holds_remarks: false, ..Self::PLAIN };
+
     const DDS: Self = Self { name: "DDS", extensions: &["dds"], holds_remarks: false, ..Self::TEXTURE };
 }
 
@@ -183,6 +188,7 @@ impl Format {
             Self::Ktx => &Properties::KTX,
             Self::Dds => &Properties::DDS,
             Self::Video => &Properties::VIDEO,
+            Self::Pfm => &Properties::PFM,
         }
     }
 
@@ -231,7 +237,7 @@ impl Format {
             return depth;
         }
         match (self, depth) {
-            (Self::Exr, Depth::Sixteen) | (Self::Hdr, _) => Depth::Float,
+            (Self::Exr, Depth::Sixteen) | (Self::Hdr | Self::Pfm, _) => Depth::Float,
             (Self::Exr, _) => Depth::Half,
             (Self::Ktx2 | Self::Ktx | Self::Dds, _) => Depth::Half,
             (Self::Png | Self::Tiff | Self::Video, _) => Depth::Sixteen,
@@ -244,7 +250,7 @@ impl Format {
         match self {
             Self::Png | Self::Tiff | Self::Tga | Self::Exr => channels,
             Self::Jpeg => channels.without_alpha(),
-            Self::Hdr | Self::Video => Channels::Rgb,
+            Self::Hdr | Self::Video | Self::Pfm => Channels::Rgb,
             Self::Ktx2 | Self::Ktx | Self::Dds => Channels::Rgba,
         }
     }
@@ -270,6 +276,11 @@ impl Format {
             HeldPrimaries::Coded => primaries.number().is_some(),
             HeldPrimaries::None => primaries.is_same(&Primaries::REC709),
         }
+    }
+
+    /// Returns whether it is that of frames in one file.
+    pub const fn is_video(self) -> bool {
+        matches!(self, Self::Video | Self::Pfm)
     }
 
     /// Returns whether the format's files hold the faces of a cube and nothing else, in an order of the format's own.
