@@ -41,4 +41,4 @@ pub use source::{
     Disk, Files, InMemory, MemoryBudget, ViewFiles, existing_frames, peak_bytes, probe, read, with_videos,
 };
 pub use target::{CHAIN_EDGE, Picture, is_cube_of_light};
-pub use video::{DamagedFrames, VideoSettings, Videos};
+pub use video::{DamagedFrames, VideoSettings, Videos, is_video};

@@ -81,7 +81,8 @@ mod sequence {
 #[cfg(feature = "video")]
 mod video {
     mod conversions;
-    pub(crate) mod films;
+    mod films;
+    mod streams;
 }
 
 mod usage {

@@ -122,7 +122,8 @@ fn make_folder(made: &mut NewFolders, folder: &Path) -> Result<()> {
 /// error.
 fn check_frame_markers(args: &Conversion, input: &Input, target: &Target) -> Result<()> {
     let numbered = target.files.iter().all(|file| matches!(file.files, ViewFiles::Sequence(_)));
-    if input.frames.len() > 1 && args.to_stream {
+    let takes_all = target.files.iter().all(|file| file.files.has_frames());
+    if input.frames.len() > 1 && args.to_stream && !takes_all {
         return Err(usage(format!(
             "{} frames cannot go to standard output, which takes one picture; choose one of them, as in {FRAMES} {}, or name \
              output files with ####",
@@ -130,7 +131,6 @@ fn check_frame_markers(args: &Conversion, input: &Input, target: &Target) -> Res
             input.frames[0].unwrap_or_default()
         )));
     }
-    let takes_all = target.files.iter().all(|file| file.files.has_frames());
     if input.frames.len() > 1 && !takes_all {
         return Err(usage(format!(
             "{} frames cannot go into the one file {}; put #### or %04d where the frame number stands",

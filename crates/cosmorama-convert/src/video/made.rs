@@ -17,7 +17,7 @@ use cosmorama_video::{
 use super::raw::RawWriter;
 use super::read::foreign;
 use super::{DamagedFrames, RawKind, VideoPlan, Videos, described};
-use crate::diagnostic::{Code, Diagnostic, FPS, FRAMES, Result, VIDEO_CODEC, usage};
+use crate::diagnostic::{Code, Diagnostic, FPS, FRAMES, Result, VIDEO_CODEC, usage, usage_as};
 
 /// Videos that a conversion makes.
 #[derive(Debug, Default)]
@@ -59,7 +59,8 @@ impl MadeVideos {
         codec(plan)?;
         for path in outputs.iter().filter(|path| RawKind::of(path).is_none()) {
             if Container::of_path(path).is_none() {
-                return Err(foreign(VideoError::UnknownContainer { path: path.clone() }).into());
+                let error = VideoError::UnknownContainer { path: path.clone() };
+                return Err(usage_as(Code::OutputFormat, error.to_string()));
             }
             Ffmpeg::find().map_err(foreign)?;
         }
@@ -85,7 +86,8 @@ impl MadeVideos {
         let (times, stamps) = times((rate, plan), source, told)?;
         let mut all = Vec::new();
         for (path, size) in outputs {
-            let state = |writer| State { writer: Some(writer), given: 0, early: BTreeMap::new(), left_out: BTreeSet::new() };
+            let state =
+                |writer| State { writer: Some(writer), given: 0, early: BTreeMap::new(), left_out: BTreeSet::new() };
             if let Some(kind) = RawKind::of(path) {
                 let writer = RawWriter::create(kind, path, (*size, plan.depth, rate_of(times)), unfinished)?;
                 let video = MadeVideo { times: Vec::new(), state: Mutex::new(state(Encoder::Raw(Box::new(writer)))) };
@@ -102,7 +104,7 @@ impl MadeVideos {
                 spatial: described::tags(plan.to.as_ref()),
                 codec: codec(plan)?,
                 arguments: plan.settings.arguments.clone(),
-                source: carried(source, told),
+                source: carried(source, times, told),
                 frames: (plan.settings.damaged != DamagedFrames::Skip).then_some(plan.frames),
                 ..WriteSettings::new(*size, Ratio::ONE)
             };
@@ -253,15 +255,21 @@ fn times(
 }
 
 /// Returns what a video takes over of its source. Sound goes along if frames follow each other as they did.
-fn carried(source: Option<(&VideoInfo, &[u64])>, told: &mut Vec<Diagnostic>) -> Option<Carried> {
+fn carried(
+    source: Option<(&VideoInfo, &[u64])>,
+    times: FrameTimes,
+    told: &mut Vec<Diagnostic>,
+) -> Option<Carried> {
     let (info, frames) = source?;
     let follows = |pair: &[u64]| pair[1] == pair[0] + 1;
-    if !frames.windows(2).all(follows) {
+    let why = if !frames.windows(2).all(follows) {
+        Some(format!("{FRAMES} leaves out frames between others"))
+    } else {
+        (rate_of(times) != info.rate).then(|| format!("{FPS} is another rate than its own, {}", info.rate))
+    };
+    if let Some(why) = why {
         if !info.others.is_empty() {
-            let message = format!(
-                "{}: its sound and subtitles are left out, since {FRAMES} leaves out frames between others",
-                info.path.display()
-            );
+            let message = format!("{}: its sound and subtitles are left out, since {why}", info.path.display());
             told.push(Diagnostic::warning(Code::MetadataLost, message));
         }
         return None;

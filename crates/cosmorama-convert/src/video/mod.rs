@@ -14,6 +14,7 @@ mod made;
 mod raw;
 #[cfg(feature = "video")]
 mod read;
+#[cfg_attr(not(feature = "video"), allow(dead_code, reason = "plans are for videos"))]
 mod settings;
 
 use std::path::Path;
@@ -30,7 +31,7 @@ pub use read::Videos;
 pub use settings::{DamagedFrames, VideoSettings};
 pub(crate) use settings::{RawFiles, RawKind, VideoPlan, VideoSource};
 
-/// Returns whether a file is taken for a video, by its name. Without the feature `video`, none is.
-pub(crate) fn is_video(path: &Path) -> bool {
+/// Returns whether a file is taken for a video or a stream of pictures, by its name. Without the feature `video`, none is.
+pub fn is_video(path: &Path) -> bool {
     cfg!(feature = "video") && (cosmorama_io::is_video(path) || RawKind::of(path).is_some())
 }

@@ -68,7 +68,11 @@ impl RawInfo {
             }
             RawReader::Pam(_) | RawReader::Pfm(_) => None,
         };
-        let empty = || VideoError::Stream { name: name.to_owned(), frame: 0, reason: "it has no picture; make it again".to_owned() };
+        let empty = || VideoError::Stream {
+            name: name.to_owned(),
+            frame: 0,
+            reason: "it has no picture; make it again".to_owned(),
+        };
         let first = reader.next_picture(name)?.ok_or_else(empty)?;
         let mut count = 1;
         while reader.next_picture(name)?.is_some() {

@@ -276,7 +276,8 @@ impl Source {
         let (ffmpeg, info) = match &self.content {
             Content::Film { ffmpeg, info } => (ffmpeg, info),
             Content::Raw { kind, files, .. } => {
-                let reader = RawReader::open(*kind, files.open(&self.name)?, &self.name.display().to_string(), limits.memory)?;
+                let reader =
+                    RawReader::open(*kind, files.open(&self.name)?, &self.name.display().to_string(), limits.memory)?;
                 return Ok((Decoder::Raw(reader), 0));
             }
         };

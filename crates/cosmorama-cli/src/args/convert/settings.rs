@@ -1,6 +1,6 @@
 //! Conversion of arguments to settings; all later code sees only these.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use cosmorama::filter::FilterKind;
 use cosmorama::motion::{Ramp, Shutter};
@@ -8,9 +8,8 @@ use cosmorama::raster::Depth;
 use cosmorama::sphere::{Angle, Orientation};
 use cosmorama_convert::{
     Backdrop, BlurMethod, CameraMovement, Conversion, Existing, ExplanationSettings, GeometrySettings, LayerSettings,
-    LimitSettings, MotionBlur, PoseFile,
+    LimitSettings, MotionBlur, PoseFile, is_video,
 };
-use cosmorama_io::is_video;
 use cosmorama_spec::{FilterName, FrameRate};
 
 use super::geometry::{CameraArgs, GeometryArgs, MotionKind, ShutterArgs};
@@ -70,6 +69,14 @@ impl From<ExplainArgs> for ExplanationSettings {
             limits: args.limits.into(),
             ..Self::default()
         }
+    }
+}
+
+impl ConvertArgs {
+    /// Returns the output's name, which is that of a file of its format for standard output.
+    pub(crate) fn named_output(&self) -> PathBuf {
+        let of_stream = |format: &String| format!("{}.{}", self.output, format.trim_start_matches('.')).into();
+        self.format.as_ref().map_or_else(|| self.output.clone().into(), of_stream)
     }
 }
 
@@ -144,10 +151,10 @@ impl ShutterArgs {
 
 impl CameraArgs {
     /// Returns an option that has no effect without another, and why.
-    pub(crate) fn idle(&self, geometry: &GeometryArgs, output: &str) -> Option<String> {
+    pub(crate) fn idle(&self, geometry: &GeometryArgs, output: Option<&Path>) -> Option<String> {
         let turns = [geometry.yaw, geometry.pitch, geometry.roll].iter().chain(&self.fov).any(Ramp::moves);
         let has_poses = self.path.is_some() || self.in_path.is_some();
-        if !has_poses && self.fps.is_some() && !is_video(Path::new(output)) {
+        if !has_poses && self.fps.is_some() && !output.is_some_and(is_video) {
             return Some(
                 "--fps is for a video, or for a --path with times in seconds; leave it out: pictures have no frame rate; name the \
                  output .mp4, .mov, .mkv or .webm for a video"

@@ -2,8 +2,8 @@ use std::path::Path;
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use cosmorama_convert::{DamagedFrames, VideoSettings};
-use cosmorama_io::{FrameList, is_video};
+use cosmorama_convert::{DamagedFrames, VideoSettings, is_video};
+use cosmorama_io::FrameList;
 use cosmorama_spec::{FrameRanges, FrameRate, TimeRanges};
 
 /// Videos, read and made.
@@ -69,14 +69,15 @@ impl VideoArgs {
     }
 
     /// Returns an option that has no effect on an output that is no video, and why.
-    pub(crate) fn idle(&self, output: &str) -> Option<String> {
-        if is_video(Path::new(output)) {
+    pub(crate) fn idle(&self, output: &Path) -> Option<String> {
+        if is_video(output) {
             return None;
         }
         let given = [(self.video_codec.is_some(), "--video-codec"), (self.video_args.is_some(), "--video-args")];
         let (_, option) = given.into_iter().find(|(is_given, _)| *is_given)?;
         Some(format!(
-            "{option} is for a video, but {output} is none; leave {option} out, or name the output .mp4, .mov, .mkv or .webm"
+            "{option} is for a video, but {} is none; leave {option} out, or name the output .mp4, .mov, .mkv or .webm",
+            output.display()
         ))
     }
 }

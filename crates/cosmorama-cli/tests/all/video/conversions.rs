@@ -195,7 +195,7 @@ fn settings_of_videos_are_checked_before_work() {
     );
     assert_says(&refused(&bench, 2, ["film.mkv", "a_#.png"], &["--fps", "24"]), &["--fps", "name the output .mp4"]);
     assert_says(&refused(&bench, 2, ["film.mkv", "a.mkv"], &["--resume"]), &["--resume", "whole or not at all"]);
-    assert_says(&refused(&bench, 1, ["film.mkv", "a.avi"], &[]), &["a.avi", ".mkv"]);
+    assert_says(&refused(&bench, 2, ["film.mkv", "a.avi"], &[]), &["a.avi", ".mkv"]);
     assert_says(&refused(&bench, 2, ["film.mkv", "film.mkv"], &["-y"]), &["would replace its own input"]);
     std::fs::write(bench.path("a.mkv"), "kept").unwrap();
     assert_says(&refused(&bench, 1, ["film.mkv", "a.mkv"], &[]), &["a.mkv exists; replace it with -y"]);
