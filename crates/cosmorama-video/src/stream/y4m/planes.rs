@@ -67,7 +67,7 @@ impl Plane<'_> {
 mod tests {
     use super::*;
 
-    /// A ramp keeps its values through both, but for the border.
+    // A ramp keeps its values through both, but for the border.
     #[test]
     fn places_of_samples_are_kept() {
         let (width, height) = (16, 12);
