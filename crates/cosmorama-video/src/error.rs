@@ -4,8 +4,6 @@ use std::path::PathBuf;
 use cosmorama_io::IoError;
 use thiserror::Error;
 
-use crate::Version;
-
 /// Way to install ffmpeg, for messages.
 const INSTALL: &str = "install it with `apt install ffmpeg`, `brew install ffmpeg` or `winget install ffmpeg`";
 
@@ -21,12 +19,14 @@ pub enum VideoError {
         program: &'static str,
     },
     /// The installed program is too old, or says nothing of its version.
-    #[error("{program} is of version {found}, but {} or later is needed; {INSTALL}", crate::Ffmpeg::OLDEST)]
+    #[error("{program} is of version {found}, but {needed} or later is needed; {INSTALL}")]
     TooOld {
         /// Name of the program.
         program: &'static str,
         /// Version that it says.
         found: String,
+        /// Oldest version that is used.
+        needed: String,
     },
     /// A program cannot be started or spoken to.
     #[error("cannot run {program}: {source}")]
@@ -231,12 +231,4 @@ pub enum VideoError {
     /// An output cannot be written; nothing was left behind.
     #[error(transparent)]
     Output(#[from] IoError),
-}
-
-impl VideoError {
-    /// Returns the text of a version for messages.
-    pub(crate) fn too_old(program: &'static str, found: Option<Version>) -> Self {
-        let found = found.map_or_else(|| "unknown".to_owned(), |version| version.to_string());
-        Self::TooOld { program, found }
-    }
 }

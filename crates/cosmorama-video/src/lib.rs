@@ -22,9 +22,9 @@ pub use colour::{
 };
 pub use error::VideoError;
 pub use ffmpeg::{Ffmpeg, Version};
-pub use probe::{Announced, AnnouncedBy, CutShort, OtherStream, StreamKind, Turn, VideoInfo};
+pub use probe::{Announced, AnnouncedBy, CutShort, OtherStream, StreamKind, Timeline, Turn, VideoInfo};
 pub use ratio::Ratio;
-pub use read::{Damaged, Fault, FrameCondition, ReadOptions, Timeline, VideoFrame, VideoReader};
+pub use read::{Damaged, Fault, FrameCondition, ReadOptions, VideoFrame, VideoReader};
 pub use spatial::{Bounds, SpatialTags, SphericalPose, SphericalProjection, StereoMode};
 pub use stream::{ByteOrder, PamReader, PamWriter, PfmReader, PfmWriter, Subsampling, Y4mFormat, Y4mReader, Y4mWriter};
 pub use write::{Carried, Codec, Container, FrameTimes, VideoWriter, WriteSettings, Written};

@@ -9,7 +9,7 @@ use cosmorama::raster::{Primaries, Transfer};
 pub use hdr::{ContentLight, HdrTags, MasteringDisplay};
 pub(crate) use numbers::Axis;
 pub use numbers::{transfer_number, transfer_of_number};
-pub(crate) use yuv::Matrix;
+pub(crate) use yuv::Coding;
 
 /// Colour tags of a video stream; `None` where it says nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,6 +1,18 @@
 //! Properties of a video file, as ffprobe and the file's own structure tell them.
 
+mod document;
+mod first_frame;
+mod pixel_format;
+mod stream;
+mod structure;
+mod timeline;
+mod turn;
+
 use std::path::PathBuf;
+
+pub(crate) use structure::is_boxes;
+pub use timeline::Timeline;
+pub use turn::Turn;
 
 use crate::{ColourTags, HdrTags, Ratio, SignalRange, SpatialTags};
 
@@ -62,6 +74,8 @@ pub struct VideoInfo {
     pub metadata: Vec<(String, String)>,
     /// Bytes that the file lacks by its own account.
     pub cut: Option<CutShort>,
+    /// Seconds at which the file begins, from which ffmpeg counts when it seeks.
+    pub(crate) file_start: f64,
     /// Statements about the file that a user should hear, such as "no matrix is said; taken for BT.709"; a sentence each.
     pub notes: Vec<String>,
 }
@@ -87,17 +101,6 @@ impl VideoInfo {
         let is_full = self.is_rgb || self.pixel_format.starts_with("yuvj");
         self.colour.range.unwrap_or(if is_full { SignalRange::Full } else { SignalRange::Narrow })
     }
-}
-
-/// Turn of coded pictures that makes them upright: first rows and columns are exchanged, then mirrored.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Turn {
-    /// Whether rows become columns.
-    pub is_transposed: bool,
-    /// Whether left and right are exchanged afterwards.
-    pub is_mirrored: bool,
-    /// Whether above and below are exchanged afterwards.
-    pub is_flipped: bool,
 }
 
 /// Number of frames that a file announces.

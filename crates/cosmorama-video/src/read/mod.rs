@@ -1,16 +1,15 @@
 //! Frames of a video, by their numbers.
 
+mod decoder;
+mod filters;
+mod reader;
+
 use std::ops::RangeInclusive;
+use std::sync::Arc;
 
-use cosmorama::raster::EncodedImage;
+use cosmorama::raster::{EncodedImage, FramePool};
 
-use crate::{Ffmpeg, Ratio, VideoError, VideoInfo};
-
-/// Frames of a video in the order in which they are shown. Dropped early, it ends its ffmpeg.
-#[derive(Debug)]
-pub struct VideoReader {
-    faults: Vec<Fault>,
-}
+pub use reader::VideoReader;
 
 /// Choices for reading a video.
 #[derive(Clone, Debug)]
@@ -23,12 +22,15 @@ pub struct ReadOptions {
     pub memory: u64,
     /// Threads of the decoder; 0 for as many as ffmpeg thinks right.
     pub threads: usize,
+    /// Pool from which frames take their memory.
+    pub pool: Arc<FramePool>,
 }
 
 impl Default for ReadOptions {
     /// Returns all frames, without tolerance for damage, of at most four gigabytes each.
     fn default() -> Self {
-        Self { frames: None, damaged: Damaged::Error, memory: 4 << 30, threads: 0 }
+        let pool = Arc::new(FramePool::default());
+        Self { frames: None, damaged: Damaged::Error, memory: 4 << 30, threads: 0, pool }
     }
 }
 
@@ -42,6 +44,18 @@ pub enum Damaged {
     Hold,
     /// The frame is left out.
     Skip,
+}
+
+impl Damaged {
+    /// Returns the answer of a name: `error`, `hold` or `skip`.
+    pub fn of_name(name: &str) -> Option<Self> {
+        match name {
+            "error" => Some(Self::Error),
+            "hold" => Some(Self::Hold),
+            "skip" => Some(Self::Skip),
+            _ => None,
+        }
+    }
 }
 
 /// Frame of a video.
@@ -66,73 +80,13 @@ pub enum FrameCondition {
     Held,
 }
 
-/// Damaged or missing frame that was held or skipped.
+/// Damaged or missing frames that were held or skipped.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
-    /// Number of the frame.
+    /// Number of the first frame.
     pub frame: u64,
+    /// Number of frames in a row.
+    pub count: u64,
     /// Finding, in words.
     pub reason: String,
-}
-
-/// Times of a video's frames.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Timeline {
-    /// A constant rate.
-    Even {
-        /// Time of the first frame in ticks.
-        start: i64,
-        /// Seconds a tick.
-        time_base: Ratio,
-        /// Frames a second.
-        rate: Ratio,
-    },
-    /// A time for each frame.
-    Listed {
-        /// Times in ticks, increasing.
-        times: Vec<i64>,
-        /// Seconds a tick.
-        time_base: Ratio,
-    },
-}
-
-impl Timeline {
-    /// Returns the time of a frame in ticks; `None` beyond the end of a list.
-    pub fn time(&self, _frame: u64) -> Option<i64> {
-        todo!()
-    }
-
-    /// Returns the number of the frame whose time is nearest to a number of ticks.
-    pub fn frame(&self, _time: i64) -> u64 {
-        todo!()
-    }
-
-    /// Returns the number of the first frame that is shown at `seconds` after the first frame, or later.
-    pub fn frame_at(&self, _seconds: f64) -> u64 {
-        todo!()
-    }
-}
-
-impl VideoReader {
-    /// Starts to decode.
-    ///
-    /// # Errors
-    /// When a frame is larger than permitted, the video is of a kind that cannot be read right (interlaced, or of a matrix that
-    /// is no matrix), the frames asked for are not there, or ffmpeg cannot be run.
-    pub fn open(_ffmpeg: &Ffmpeg, _info: &VideoInfo, _options: ReadOptions) -> Result<Self, VideoError> {
-        todo!()
-    }
-
-    /// Returns the next frame; `None` after the last.
-    ///
-    /// # Errors
-    /// When a frame is damaged or missing and neither held nor skipped, or there are fewer than the file announces.
-    pub fn next_frame(&mut self) -> Result<Option<VideoFrame>, VideoError> {
-        todo!()
-    }
-
-    /// Returns the frames so far that were held or skipped.
-    pub fn faults(&self) -> &[Fault] {
-        &self.faults
-    }
 }

@@ -4,6 +4,8 @@ mod boxes;
 
 use std::path::Path;
 
+pub(crate) use boxes::{sound_fields, write_sound_fields};
+
 use crate::VideoError;
 
 /// Tags of spherical video (Google's Spherical Video V2: boxes `st3d` and `sv3d`; Matroska's StereoMode and Projection).

@@ -1,5 +1,7 @@
 //! Streams of pictures for pipes, without ffmpeg: YUV4MPEG2, PAM and its elders, PFM.
 
+mod input;
+mod output;
 mod pam;
 mod pfm;
 mod y4m;

@@ -1,16 +1,24 @@
 //! Videos made of frames, whole or not at all.
 
+mod carried;
+mod codec;
+mod command;
+mod container;
+mod feed;
+mod timecode;
+mod verify;
+mod writer;
+
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use cosmorama::raster::{Depth, EncodedImage};
-use cosmorama_io::pending::Unfinished;
+use cosmorama::raster::Depth;
 
-use crate::{ColourTags, Ffmpeg, HdrTags, Ratio, SpatialTags, VideoError, VideoInfo};
+pub use codec::Codec;
+pub use container::Container;
+pub use writer::VideoWriter;
 
-/// Video in progress. Dropped without [`VideoWriter::finish`], it ends its ffmpeg and leaves nothing behind.
-#[derive(Debug)]
-pub struct VideoWriter {}
+use crate::{ColourTags, HdrTags, Ratio, SpatialTags, VideoInfo};
 
 /// Choices for writing a video.
 #[derive(Clone, Debug)]
@@ -62,6 +70,28 @@ impl WriteSettings {
     }
 }
 
+impl WriteSettings {
+    /// Returns whether frames have more than 8 bits.
+    fn is_deep(&self) -> bool {
+        self.depth != Depth::Eight
+    }
+
+    /// Returns the rate, or its mean.
+    fn rate(&self) -> Ratio {
+        match self.times {
+            FrameTimes::Even { rate } | FrameTimes::Stamps { rate, .. } => rate,
+        }
+    }
+
+    /// Returns the unit of frames' times: a frame, where the rate is constant.
+    fn tick(&self) -> Ratio {
+        match self.times {
+            FrameTimes::Even { rate } => rate.inverse(),
+            FrameTimes::Stamps { time_base, .. } => time_base,
+        }
+    }
+}
+
 /// Times of the frames of a video to write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FrameTimes {
@@ -88,75 +118,6 @@ pub struct Carried {
     pub seconds: Option<Range<f64>>,
 }
 
-/// Codec by the name of its preset.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Codec {
-    /// H.264 by x264.
-    H264,
-    /// HEVC by x265.
-    Hevc,
-    /// ProRes 422 HQ, or 4444 with alpha.
-    ProRes,
-    /// DNxHR HQ, or HQX for more than 8 bits.
-    DnxHr,
-    /// FFV1, without loss.
-    Ffv1,
-    /// AV1 by SVT-AV1 or libaom.
-    Av1,
-    /// VP9 by libvpx.
-    Vp9,
-}
-
-impl Codec {
-    /// All presets.
-    pub const ALL: [Self; 7] = [Self::H264, Self::Hevc, Self::ProRes, Self::DnxHr, Self::Ffv1, Self::Av1, Self::Vp9];
-
-    /// Returns the name of the preset.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::H264 => "h264",
-            Self::Hevc => "hevc",
-            Self::ProRes => "prores",
-            Self::DnxHr => "dnxhr",
-            Self::Ffv1 => "ffv1",
-            Self::Av1 => "av1",
-            Self::Vp9 => "vp9",
-        }
-    }
-
-    /// Returns the codec of a name; `None` if none is called so.
-    pub fn of_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|codec| codec.name() == name)
-    }
-}
-
-/// Container format of a video to write.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Container {
-    /// MP4: `.mp4`, `.m4v`.
-    Mp4,
-    /// QuickTime: `.mov`.
-    Mov,
-    /// Matroska: `.mkv`.
-    Matroska,
-    /// WebM: `.webm`.
-    WebM,
-}
-
-impl Container {
-    /// Returns the container of a file's extension; `None` if that is no video's.
-    pub fn of_path(path: &Path) -> Option<Self> {
-        let extension = path.extension()?.to_str()?.to_ascii_lowercase();
-        match extension.as_str() {
-            "mp4" | "m4v" => Some(Self::Mp4),
-            "mov" => Some(Self::Mov),
-            "mkv" => Some(Self::Matroska),
-            "webm" => Some(Self::WebM),
-            _ => None,
-        }
-    }
-}
-
 /// Account of a video that was written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Written {
@@ -168,36 +129,4 @@ pub struct Written {
     pub encoder: String,
     /// Statements on what the container or codec cannot hold, a sentence each.
     pub notes: Vec<String>,
-}
-
-impl VideoWriter {
-    /// Starts to encode, under a temporary name in the output's folder.
-    ///
-    /// # Errors
-    /// When the extension or the settings fit no codec, the encoder is missing in this build of ffmpeg, or nothing can be
-    /// written there.
-    pub fn create(
-        _ffmpeg: &Ffmpeg,
-        _path: &Path,
-        _settings: WriteSettings,
-        _unfinished: &Unfinished,
-    ) -> Result<Self, VideoError> {
-        todo!()
-    }
-
-    /// Gives the next frame. `time` is its time in ticks for [`FrameTimes::Stamps`], and `None` for a constant rate.
-    ///
-    /// # Errors
-    /// When the frame is of another size, depth or kind than the settings say, times do not increase, or ffmpeg has failed.
-    pub fn write(&mut self, _frame: &EncodedImage, _time: Option<i64>) -> Result<(), VideoError> {
-        todo!()
-    }
-
-    /// Waits for the encoder, checks that all frames arrived, adds spherical tags, and gives the file its name.
-    ///
-    /// # Errors
-    /// When ffmpeg fails, frames are missing in what it wrote, or the file cannot be finished. Nothing is left behind then.
-    pub fn finish(self) -> Result<Written, VideoError> {
-        todo!()
-    }
 }

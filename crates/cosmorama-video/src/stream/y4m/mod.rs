@@ -1,10 +1,14 @@
 //! YUV4MPEG2: raw YUV with a line of text before the first frame, and one before each.
 
-use std::io::{Read, Write};
+mod header;
+mod planes;
+mod reader;
+mod writer;
 
-use cosmorama::raster::EncodedImage;
+pub use reader::Y4mReader;
+pub use writer::Y4mWriter;
 
-use crate::{Ratio, SignalRange, VideoError};
+use crate::{Ratio, SignalRange};
 
 /// Format of a YUV4MPEG2 stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,9 +25,45 @@ pub struct Y4mFormat {
     pub bits: u32,
     /// Range of the codes. Streams that say nothing are of narrow range.
     pub range: SignalRange,
-    /// Number of the matrix (H.273, table 4): 1, 5, 6, 7, 9 or 4. The format has no word for it: readers take BT.709 for more than
+    /// Number of the matrix (H.273, table 4): 1, 4, 5, 6, 7 or 9. The format has no word for it: readers take BT.709 for more than
     /// 1024 columns or 576 rows, and BT.601 for others.
     pub matrix: u8,
+}
+
+impl Y4mFormat {
+    /// Creates the format of frames of 8 bits with all chroma samples, and the matrix that readers take for the size.
+    pub fn new(size: (usize, usize), rate: Ratio) -> Self {
+        Self {
+            size,
+            rate,
+            pixel_aspect: None,
+            subsampling: Subsampling::C444,
+            bits: 8,
+            range: SignalRange::Narrow,
+            matrix: usual_matrix(size),
+        }
+    }
+
+    /// Returns the columns and rows of each of the chroma planes.
+    fn chroma_size(&self) -> (usize, usize) {
+        let (width, height) = self.size;
+        match self.subsampling {
+            Subsampling::Grey => (0, 0),
+            Subsampling::Jpeg420 | Subsampling::Mpeg420 => (width.div_ceil(2), height.div_ceil(2)),
+            Subsampling::C422 => (width.div_ceil(2), height),
+            Subsampling::C444 | Subsampling::C444Alpha => (width, height),
+        }
+    }
+
+    /// Returns the bytes of a sample.
+    fn sample_bytes(&self) -> usize {
+        if self.bits > 8 { 2 } else { 1 }
+    }
+}
+
+/// Returns the number of the matrix that is taken for a size, where nothing is said.
+fn usual_matrix((width, height): (usize, usize)) -> u8 {
+    if width > 1024 || height > 576 { 1 } else { 6 }
 }
 
 /// Places of the chroma samples of YUV.
@@ -41,77 +81,4 @@ pub enum Subsampling {
     C444,
     /// As many as luma samples, and alpha (`C444alpha`).
     C444Alpha,
-}
-
-/// Reader of YUV4MPEG2. Frames are RGB of 8 bits, or of 16 for more.
-#[derive(Debug)]
-pub struct Y4mReader<R> {
-    source: R,
-    name: String,
-    format: Y4mFormat,
-}
-
-impl<R: Read> Y4mReader<R> {
-    /// Reads the stream's first line. `name` is for messages; a frame may take `memory` bytes.
-    ///
-    /// # Errors
-    /// When it is no YUV4MPEG2, is interlaced, or its frames are larger than permitted.
-    pub fn new(_source: R, _name: &str, _memory: u64) -> Result<Self, VideoError> {
-        todo!()
-    }
-
-    /// Returns the format.
-    pub fn format(&self) -> &Y4mFormat {
-        &self.format
-    }
-
-    /// Chooses another matrix than the usual one of the size.
-    ///
-    /// # Errors
-    /// When H.273 has no such matrix of three weights.
-    pub fn set_matrix(&mut self, _matrix: u8) -> Result<(), VideoError> {
-        todo!()
-    }
-
-    /// Returns the next frame; `None` at the end of the stream.
-    ///
-    /// # Errors
-    /// When the stream ends within a frame, or something else is between two.
-    pub fn next_frame(&mut self) -> Result<Option<EncodedImage>, VideoError> {
-        todo!()
-    }
-}
-
-/// Writer of YUV4MPEG2.
-#[derive(Debug)]
-pub struct Y4mWriter<W> {
-    sink: W,
-    name: String,
-    format: Y4mFormat,
-}
-
-impl<W: Write> Y4mWriter<W> {
-    /// Writes the stream's first line.
-    ///
-    /// # Errors
-    /// When nothing can be written, or the format has no name.
-    pub fn new(_sink: W, _name: &str, _format: Y4mFormat) -> Result<Self, VideoError> {
-        todo!()
-    }
-
-    /// Writes a frame: RGB or grey integers of 8 to 16 bits.
-    ///
-    /// # Errors
-    /// When the frame is of another size, has floats, or an alpha that the format has no room for; or nothing can be written.
-    pub fn write(&mut self, _frame: &EncodedImage) -> Result<(), VideoError> {
-        todo!()
-    }
-
-    /// Writes what is left in buffers.
-    ///
-    /// # Errors
-    /// When it cannot be written.
-    pub fn finish(self) -> Result<W, VideoError> {
-        todo!()
-    }
 }
