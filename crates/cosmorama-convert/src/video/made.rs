@@ -255,14 +255,12 @@ fn times(
 }
 
 /// Returns what a video takes over of its source. Sound goes along if frames follow each other as they did.
-fn carried(
-    source: Option<(&VideoInfo, &[u64])>,
-    times: FrameTimes,
-    told: &mut Vec<Diagnostic>,
-) -> Option<Carried> {
+fn carried(source: Option<(&VideoInfo, &[u64])>, times: FrameTimes, told: &mut Vec<Diagnostic>) -> Option<Carried> {
     let (info, frames) = source?;
     let follows = |pair: &[u64]| pair[1] == pair[0] + 1;
-    let why = if !frames.windows(2).all(follows) {
+    let why = if info.cut.is_some() {
+        Some("the file is cut".to_owned())
+    } else if !frames.windows(2).all(follows) {
         Some(format!("{FRAMES} leaves out frames between others"))
     } else {
         (rate_of(times) != info.rate).then(|| format!("{FPS} is another rate than its own, {}", info.rate))

@@ -13,7 +13,7 @@ use anyhow::Result;
 use cosmorama::circle::{Circle, Found};
 use cosmorama::raster::Transfer;
 use cosmorama_convert::{
-    Builtin, Files, ThinAlpha, ViewFiles, damage_of, existing_frames, face_set, is_one_file, light_of, likely,
+    Builtin, Files, ThinAlpha, ViewFiles, damage_of, existing_frames, face_set, is_one_file, light_of, likely, probe,
     with_videos,
 };
 use cosmorama_io::{Choice, EnvMap, FacePattern, Header, ProfileFault, probe_chosen};
@@ -71,7 +71,7 @@ fn single(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value> {
     if files.video().is_none() {
         is_one_file(inputs, pattern, &path)?;
     }
-    let header = probe_any(inputs, &path)?;
+    let header = probe_any(inputs, &files, frames.first().copied())?;
     if header.metadata.layers.no_picture.is_some() {
         let mut report = json!({ "input": pattern });
         if check || frames.is_empty() {
@@ -135,7 +135,7 @@ fn faces_report(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value>
         }
         if file.present {
             add_frames(&mut face, &frames, check);
-            merge(&mut face, header_report(&probe_any(inputs, &files.path(frames.first().copied()))?));
+            merge(&mut face, header_report(&probe_any(inputs, &files, frames.first().copied())?));
         }
         faces.insert(file.face.name().to_owned(), face);
     }
@@ -163,8 +163,12 @@ pub(super) fn add_damage(report: &mut Value, damaged: Vec<String>) {
     }
 }
 
-/// Reads a file's header, even if its channels form no picture.
-fn probe_any(inputs: &dyn Files, path: &Path) -> Result<Header> {
+/// Reads the header of a frame, even if its channels form no picture.
+fn probe_any(inputs: &dyn Files, files: &ViewFiles, frame: Option<u64>) -> Result<Header> {
+    let path = &files.path(frame);
+    if files.video().is_some() {
+        return Ok(probe(inputs, path)?);
+    }
     let choice = Choice { without_picture: true, ..Choice::default() };
     Ok(probe_chosen(inputs.open(path)?, path, &choice)?)
 }
