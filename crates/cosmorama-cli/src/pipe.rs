@@ -8,7 +8,7 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
 use anyhow::{Context, Result, anyhow};
-use cosmorama_convert::{Files, InMemory};
+use cosmorama_convert::{Files, InMemory, is_video};
 use cosmorama_io::Format;
 use cosmorama_io::pending::Scratch;
 
@@ -18,6 +18,9 @@ use crate::failure::usage;
 
 /// Name of a standard stream on the command line.
 const STREAM: &str = "-";
+
+/// Formats of streams of raw pictures.
+const STREAMS: [&str; 3] = ["y4m", "pam", "pfm"];
 
 /// Name of standard input where pictures have names.
 const STDIN: &str = "standard input";
@@ -42,12 +45,11 @@ impl KeptStreams {
                 return Err(usage("standard input is a terminal; pipe a picture into it, or name a file"));
             }
             self.has_stdin = true;
-            self.keep(&mut stdin().lock(), STDIN)?;
-            return Ok(STDIN.to_owned());
+            return self.keep(&mut stdin().lock(), STDIN);
         }
         if is_pipe(Path::new(name)) {
             let mut pipe = told_if_late(name, || File::open(name)).with_context(|| format!("cannot open {name}"))?;
-            self.keep(&mut pipe, name)?;
+            return self.keep(&mut pipe, name);
         }
         Ok(name.to_owned())
     }
@@ -57,11 +59,25 @@ impl KeptStreams {
         Arc::new(self.files)
     }
 
-    fn keep(&mut self, source: &mut dyn Read, name: &str) -> Result<()> {
+    /// Holds the bytes of a stream, and returns the name under which it does.
+    fn keep(&mut self, source: &mut dyn Read, name: &str) -> Result<String> {
         let mut bytes = Vec::new();
         source.read_to_end(&mut bytes).with_context(|| format!("cannot read {name}"))?;
-        self.files.insert(name, bytes);
-        Ok(())
+        // Streams of many pictures are known by their names.
+        let kind = stream_kind(&bytes).filter(|kind| is_video(Path::new(&format!("stream.{kind}"))));
+        let name = kind.map_or_else(|| name.to_owned(), |kind| format!("{name}.{kind}"));
+        self.files.insert(&name, bytes);
+        Ok(name)
+    }
+}
+
+/// Returns the extension of a stream of raw pictures, by its first bytes; `None` for other files.
+fn stream_kind(bytes: &[u8]) -> Option<&'static str> {
+    match bytes {
+        _ if bytes.starts_with(b"YUV4MPEG2 ") => Some("y4m"),
+        [b'P', b'5' | b'6' | b'7', b' ' | b'\t' | b'\r' | b'\n', ..] => Some("pam"),
+        [b'P', b'F' | b'f', b' ' | b'\t' | b'\r' | b'\n', ..] => Some("pfm"),
+        _ => None,
     }
 }
 
@@ -167,7 +183,7 @@ fn check(args: &ConvertArgs, to_stdout: bool) -> Result<()> {
             Err(usage("the output is standard output, whose name says no format; give --format, as in --format png"))
         }
         (true, Some(format)) if !is_format(format) => Err(usage(format!(
-            "--format {format}: no format of this name can be written; use one of {}",
+            "--format {format}: no format of this name can be written there; use one of {}, y4m, pam, pfm",
             Format::extensions()
         ))),
         (true, Some(_)) if args.run.json => Err(usage(
@@ -182,5 +198,7 @@ fn check(args: &ConvertArgs, to_stdout: bool) -> Result<()> {
 
 /// Returns whether a format, given by its extension, can be written.
 fn is_format(extension: &str) -> bool {
-    Format::from_extension(Path::new(&format!("picture.{}", extension.trim_start_matches('.')))).is_ok()
+    let extension = extension.trim_start_matches('.');
+    let is_stream = STREAMS.contains(&extension) && is_video(Path::new(&format!("stream.{extension}")));
+    is_stream || Format::from_extension(Path::new(&format!("picture.{extension}"))).is_ok()
 }

@@ -8,9 +8,10 @@ use cosmorama::raster::{Depth, Primaries, Rgba};
 use cosmorama::sphere::{Angle, Orientation};
 use cosmorama_io::pending::Unfinished;
 use cosmorama_io::{CameraPath, Compression, FrameList, Remark};
-use cosmorama_spec::{FilterName, FrameMap, KernelName, MemorySize, Missing, Size, Spec, TransferName};
+use cosmorama_spec::{FilterName, FrameMap, KernelName, MemorySize, Missing, Size, Spec, TimeRanges, TransferName};
 
 use crate::source::{Disk, Files};
+use crate::video::VideoSettings;
 
 /// Settings of a conversion from an input, in any form, to pictures of another projection.
 ///
@@ -71,6 +72,10 @@ pub struct Conversion {
     pub opacity: f32,
     /// Frames of a sequence; all that exist, unless given.
     pub frames: Option<FrameList>,
+    /// Times of an input that is a video, in place of the numbers of its frames.
+    pub times: Option<TimeRanges>,
+    /// Settings of videos, read and made.
+    pub video: VideoSettings,
     /// Treatment of outputs that exist already.
     pub existing: Existing,
     /// Whether folders of outputs that do not exist are made; else they are an error.
@@ -413,6 +418,8 @@ impl Default for Conversion {
             backdrop: None,
             opacity: 1.0,
             frames: None,
+            times: None,
+            video: VideoSettings::default(),
             existing: Existing::default(),
             make_folders: true,
             to_stream: false,

@@ -162,6 +162,15 @@ pub enum IoError {
         /// Cause of the failure.
         reason: String,
     },
+    /// A frame of a video, or a video, cannot be read or written. The message of its own reader or writer names it.
+    #[error(transparent)]
+    Video(Box<dyn std::error::Error + Send + Sync>),
+    /// A damaged frame of a video is left out, as was asked for.
+    #[error("{}: damaged or missing, and left out as was asked for; make the video again, or choose other frames", path.display())]
+    LeftOut {
+        /// Name of the frame.
+        path: PathBuf,
+    },
     /// The face pattern contains neither `{face}` nor `%c`.
     #[error(
         "{pattern}: no {{face}} or %c in this pattern; put one where the face's name stands, as in faces/{{face}}.png"
@@ -287,11 +296,14 @@ fn unnamed(path: &Path) -> String {
     format!("the extension names no format; use one of {extensions}")
 }
 
-/// Extensions of files that ffmpeg takes apart into pictures.
-const VIDEOS: [&str; 9] = ["mp4", "mov", "mkv", "webm", "avi", "m4v", "mxf", "ts", "gif"];
+/// Extensions of videos, which hold many pictures.
+const VIDEOS: [&str; 17] = [
+    "mp4", "m4v", "mov", "mkv", "webm", "avi", "mxf", "ts", "mts", "m2ts", "mpg", "wmv", "flv", "ogv", "gif", "insv",
+    "360",
+];
 
 /// Returns whether a file is a video by its name.
-fn is_video(path: &Path) -> bool {
+pub fn is_video(path: &Path) -> bool {
     let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default().to_ascii_lowercase();
     VIDEOS.contains(&extension.as_str())
 }

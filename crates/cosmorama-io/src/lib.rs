@@ -43,7 +43,7 @@ pub use calibration::{Calibration, CalibrationError, Distortion};
 #[cfg(feature = "diagrams")]
 pub use codec::svg;
 pub use codec::{Compression, ReadSeek, WriteOptions, is_contained};
-pub use error::IoError;
+pub use error::{IoError, is_video};
 pub use face_set::{FaceFile, FaceImages, FacePattern, FacePlacement, FaceSet, LetterCase, Naming};
 pub use file::{
     StPairs, open, probe, probe_chosen, probe_from, probe_pairs, probe_pairs_from, read, read_chosen, read_from,

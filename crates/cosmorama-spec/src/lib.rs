@@ -43,7 +43,7 @@ mod window;
 pub use angle::{Degrees, parse_degrees, parse_ramp};
 pub use error::{SpecError, WordError, WordKind, did_you_mean, nearest};
 pub use filter::{FilterName, KernelName};
-pub use frames::{FrameEnds, FrameMap, FrameRanges, FrameRangesError};
+pub use frames::{FrameEnds, FrameMap, FrameRanges, FrameRangesError, FrameRate, TimeRanges, TimeRangesError};
 pub use light::{
     Colour, DepthName, Missing, PrimariesName, TransferName, colour_table_csv, colour_table_of_csv,
     colour_table_of_stops,

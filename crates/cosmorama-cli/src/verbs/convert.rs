@@ -14,7 +14,9 @@ use crate::report;
 
 /// Converts, and reports the result.
 pub(super) fn run(args: ConvertArgs, console: &mut Console) -> Result<ExitCode> {
-    if let Some(idle) = args.camera.idle(&args.geometry).or_else(|| args.shutter.idle()) {
+    let output = args.named_output();
+    let idle = args.camera.idle(&args.geometry, Some(&output)).or_else(|| args.shutter.idle());
+    if let Some(idle) = idle.or_else(|| args.video.idle(&output)) {
         return Err(usage(idle));
     }
     let (progress, as_json) = (args.run.progress, args.run.json);

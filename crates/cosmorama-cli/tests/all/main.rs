@@ -78,6 +78,13 @@ mod sequence {
     mod verify;
 }
 
+#[cfg(feature = "video")]
+mod video {
+    mod conversions;
+    mod films;
+    mod streams;
+}
+
 mod usage {
     mod advice;
     mod help;

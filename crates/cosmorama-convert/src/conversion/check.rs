@@ -1,13 +1,19 @@
+use std::path::Path;
+use std::sync::Arc;
 use std::time::Instant;
 
 use cosmorama::explain;
+use cosmorama_io::FrameList;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use crate::diagnostic::{Diagnostic, FROM, IN_PATH, Outcome, Result, failure, usage};
+use super::videos;
+use crate::diagnostic::{Diagnostic, FRAMES, FROM, IN_PATH, Outcome, Result, bail, failure, usage};
 use crate::engine::{FrameFile, Stage, Stages};
+use crate::input::is_one_file;
 use crate::input::lists::world_file;
 use crate::job::{Content, ConvertJob, Purpose};
 use crate::settings::{Backdrop, Conversion, GeometrySettings};
+use crate::source::{ViewFiles, with_videos};
 
 /// A conversion that has been checked as far as possible without decoding pixels.
 pub struct Checked {
@@ -33,7 +39,7 @@ impl Conversion {
 
     fn checked(self, diagnostics: &mut Vec<Diagnostic>) -> Result<Checked> {
         let (start, stages) = (Instant::now(), Stages::default());
-        let settings = with_layers(self)?;
+        let settings = with_frames_at_times(with_layers(self)?)?;
         let content = Content::of(&settings)?;
         let pool = threads(settings.limits.threads)?;
         let resolve =
@@ -43,6 +49,7 @@ impl Conversion {
             let check = || job.layers().try_for_each(FrameFile::check_frames);
             pool.install(|| stages.alone(Stage::Decode, check))?;
         }
+        videos::check(&settings, &job)?;
         Ok(Checked { settings, content, job, pool, diagnostics: diagnostics.clone(), stages, start })
     }
 }
@@ -87,6 +94,26 @@ fn with_layers(mut settings: Conversion) -> Result<Conversion> {
         settings = Conversion { input, opacity, ..settings };
     }
     Ok(settings)
+}
+
+/// Puts the numbers of a video's frames in place of the times that are asked for.
+fn with_frames_at_times(settings: Conversion) -> Result<Conversion> {
+    let Some(times) = &settings.times else { return Ok(settings) };
+    let (input, files) = (&settings.input, with_videos(Arc::clone(&settings.files)));
+    let refused =
+        |why: &str| Err(usage(format!("{FRAMES} {times}: {input} {why}; give numbers of frames, as in {FRAMES} 0-99")));
+    let video = ViewFiles::new(Path::new(input));
+    let Some((video, videos)) = video.video().zip(files.videos()) else {
+        return refused("is no video, whose frames have times");
+    };
+    is_one_file(&*files, input, video)?;
+    let Some(rate) = videos.rate(video)? else { return refused("has a frame rate that varies") };
+    let count = videos.count(video)?;
+    let frames = FrameList::new(times.frames(rate, count));
+    if frames.frames().is_empty() {
+        bail!(NotFound: "{FRAMES} {times}: {input} has no frame then; it has {count}, at {rate} a second");
+    }
+    Ok(Conversion { frames: Some(frames), ..settings })
 }
 
 /// Starts a pool of threads.

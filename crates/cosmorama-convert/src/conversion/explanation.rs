@@ -21,6 +21,7 @@ use crate::job::options::filter;
 use crate::settings::{GeometrySettings, LimitSettings};
 use crate::source::{Access, ChosenFiles, DecodedPicture, Disk, Files, MemoryBudget};
 use crate::target::{Movement, Picture, TargetView, aspect, time};
+use crate::video::DamagedFrames;
 
 /// Settings of an explanation, possibly for an input that does not exist yet.
 #[derive(Clone, Debug)]
@@ -106,7 +107,7 @@ impl ExplanationSettings {
         let memory = MemoryBudget::new(self.limits.memory);
         // A file without a picture, as of depth alone, can be converted, too.
         let choice = Choice { without_picture: true, ..Choice::default() };
-        let files = ChosenFiles { files: Arc::clone(&self.files), choice };
+        let files = ChosenFiles::new(Arc::clone(&self.files), choice, DamagedFrames::default());
         let access = Access { files: &files, memory, decoded: &DecodedPicture::default() };
         let geometry = &settled(&self.geometry, self.input.as_deref(), access, warnings)?;
         if geometry.to.is_none() {

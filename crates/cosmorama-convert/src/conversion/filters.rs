@@ -102,7 +102,7 @@ impl Conversion {
 
 /// Returns the one picture that is made.
 fn target(settings: &Conversion, memory: MemoryBudget, parity: f64) -> Result<View> {
-    let files = ChosenFiles { files: Arc::clone(&settings.files), choice: Choice::default() };
+    let files = ChosenFiles::new(Arc::clone(&settings.files), Choice::default(), settings.video.damaged);
     let access = Access { files: &files, memory, decoded: &DecodedPicture::default() };
     let geometry = settled(&settings.geometry, Some(settings.input.as_str()), access, &mut Vec::new())?;
     match &Picture::all(&geometry, None, Some(parity))?[..] {

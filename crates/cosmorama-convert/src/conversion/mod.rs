@@ -8,6 +8,7 @@ mod observer;
 mod report;
 mod run;
 mod verify;
+mod videos;
 mod world_light;
 
 pub use check::Checked;

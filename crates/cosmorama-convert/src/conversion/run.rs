@@ -1,6 +1,7 @@
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use cosmorama::raster::Threads;
 use cosmorama::render::Progress;
@@ -8,16 +9,17 @@ use cosmorama_spec::Spec;
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
-use super::{Checked, Observer, Report, Stop, Work, watched};
+use super::{Checked, Observer, Report, Stop, Work, videos, watched};
 use crate::diagnostic::{Code, ConvertError, DEPTH, Diagnostic, Result, SCALE};
 use crate::engine::unfiltered::{OutputFile, formula, st_map};
 use crate::engine::{
-    Engine, FrameFile, FrameLight, InterpolationReport, Levels, LightReport, Sequence, Stage, Stages, ViewImage,
-    Watcher, Which, warnings,
+    Engine, FrameFile, FrameLight, FrameWords, InterpolationReport, Levels, LightReport, Sequence, Stage, Stages,
+    ViewImage, Watcher, Which, WriterOptions, warnings,
 };
 use crate::job::options::write_options;
 use crate::job::{Content, ConvertJob, FrameOutputs};
 use crate::settings::LightSettings;
+use crate::video::{FrameName, Videos};
 
 impl Checked {
     /// Makes the outputs. Each appears whole or not at all.
@@ -27,23 +29,41 @@ impl Checked {
     pub fn run(mut self, observer: &mut dyn Observer) -> Result<Report> {
         observer.begin(self.job.outputs.frames.len());
         let (mut lit, mut interpolated) = (Vec::new(), Vec::new());
+        let options = self.writer_options(observer)?;
+        let videos = Arc::clone(&options.videos);
         match self.content {
-            Content::World => (lit, interpolated) = self.convert(observer)?,
+            Content::World => (lit, interpolated) = self.convert(observer, options)?,
             Content::StMap => self.each_file(observer, st_map::make)?,
             Content::Formula(world) => {
-                let options = write_options(&self.settings, self.job.target.format, &self.job.outputs, &self.job.light);
                 self.each_file(observer, |output| formula::picture(output, world, &options))?;
             }
             Content::Directions(map) => self.each_file(observer, |output| formula::directions(output, map))?,
         }
+        let finished = self.stages.alone(Stage::Encode, || videos.finish())?;
+        self.tell(observer, finished.into_iter().chain(damaged_frames(&self.job)).collect());
         let Self { job, settings, stages, diagnostics, start, content, .. } = self;
         let inputs: BTreeSet<PathBuf> = if content.has_files() {
-            job.outputs.frames.iter().flat_map(|frame| job.paths(frame.frame)).collect()
+            let paths = job.outputs.frames.iter().flat_map(|frame| job.paths(frame.frame));
+            paths.map(|path| FrameName::file(&path)).collect()
         } else {
             BTreeSet::from([PathBuf::from(&settings.input)])
         };
         let report = Report::new(inputs, &job.outputs, start.elapsed(), &stages, diagnostics);
         Ok(Report { light: lit, interpolated, ..report })
+    }
+
+    /// Returns the options of the writer. The encoders of videos are started with it.
+    fn writer_options(&mut self, observer: &mut dyn Observer) -> Result<WriterOptions> {
+        let files = write_options(&self.settings, self.job.target.format, &self.job.outputs, &self.job.light);
+        let mut told = Vec::new();
+        let videos = videos::start(&self.settings, &self.job, &mut told)?;
+        self.tell(observer, told);
+        Ok(WriterOptions { files, videos: Arc::new(videos) })
+    }
+
+    fn tell(&mut self, observer: &mut dyn Observer, told: Vec<Diagnostic>) {
+        told.iter().for_each(|diagnostic| observer.diagnostic(diagnostic));
+        self.diagnostics.extend(told);
     }
 
     /// Makes one file after the other.
@@ -54,7 +74,7 @@ impl Checked {
         for (done, FrameOutputs { frame, files }) in (1..).zip(frames) {
             let (views, exposure) = (&job.views_in(job.pose(*frame).as_ref())?[..], &job.exposure(*frame)?[..]);
             let make = |(index, path): &(usize, PathBuf)| {
-                make(&OutputFile { job, views, exposure, stages, unfinished, index: *index, path })
+                make(&OutputFile { job, place: done - 1, views, exposure, stages, unfinished, index: *index, path })
             };
             pool.install(|| files.iter().try_for_each(make))?;
             tell_done(observer, *frame, (done, frames.len()))?;
@@ -63,9 +83,12 @@ impl Checked {
     }
 
     /// Converts the light of files.
-    fn convert(&mut self, observer: &mut dyn Observer) -> Result<(Vec<LightReport>, Vec<InterpolationReport>)> {
+    fn convert(
+        &mut self,
+        observer: &mut dyn Observer,
+        options: WriterOptions,
+    ) -> Result<(Vec<LightReport>, Vec<InterpolationReport>)> {
         let Self { settings, job, pool, stages, diagnostics, .. } = self;
-        let options = write_options(settings, job.target.format, &job.outputs, &job.light);
         let prepare = |progress: &dyn Progress| stages.alone(Stage::Plan, || Engine::new(job, options, progress));
         let engine = watched(pool, observer, Work::Plan, prepare).and_then(Result::ok);
         let Some(engine) = &engine else { return Err(stopped((0, job.outputs.frames.len()))) };
@@ -99,6 +122,12 @@ impl Checked {
         run.tell(told.chain(lit.first().and_then(|report| fitted(job, output, report.scale))).collect());
         Ok((lit, interpolated))
     }
+}
+
+/// Returns the warnings about damaged frames of videos in place of which others were shown.
+fn damaged_frames(job: &ConvertJob) -> Vec<Diagnostic> {
+    let complaints = job.layers().filter_map(|layer| layer.files.videos()).flat_map(Videos::complaints);
+    complaints.map(|message| Diagnostic::warning(Code::DamagedFrames, message)).collect()
 }
 
 /// Returns the warning about light that was scaled to fit the output's sample type.
@@ -170,9 +199,8 @@ impl Run<'_> {
         drop(light);
         let write = || {
             let outputs = frame.files.par_iter().zip(pictures);
-            let origin = job.origin_of(frame.frame)?;
-            let said = (carried.as_ref(), origin.as_deref());
-            let save = |path, levels| engine.writer().save_frame(said, levels, path, Threads::All);
+            let words = FrameWords { place: 0, carried, origin: job.origin_of(frame.frame)?.map(Arc::from) };
+            let save = |path, levels| engine.writer().save(words.clone(), levels, path, Threads::All);
             outputs.try_for_each(|((_, path), levels)| save(path, levels))
         };
         pool.install(|| stages.alone(Stage::Encode, write))?;

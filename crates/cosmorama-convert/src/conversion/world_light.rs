@@ -15,7 +15,7 @@ use rayon::ThreadPool;
 use super::check::threads;
 use super::run::light_of;
 use crate::diagnostic::{Diagnostic, FRAMES, Outcome, Result, TO, bail, usage};
-use crate::engine::{Engine, FrameLight, Stages, Texels, light_of_unseen};
+use crate::engine::{Engine, FrameLight, Stages, Texels, WriterOptions, light_of_unseen};
 use crate::job::options::write_options;
 use crate::job::{Content, ConvertJob, Purpose, files_read};
 use crate::settings::{Conversion, LightNormalisation, LightSettings};
@@ -257,7 +257,8 @@ impl WorldLight {
     /// Reads the frame's files.
     fn read(&self) -> Result<(FrameLight, Vec<Diagnostic>)> {
         let Self { settings, job, .. } = self;
-        let options = write_options(settings, job.target.format, &job.outputs, &job.light);
+        let files = write_options(settings, job.target.format, &job.outputs, &job.light);
+        let options = WriterOptions { files, ..WriterOptions::default() };
         let Ok(engine) = Engine::new(job, options, &|_: f64| ControlFlow::Continue(())) else {
             bail!("the light was not read: stopped")
         };

@@ -40,6 +40,10 @@ pub enum Code {
     Stopped,
     /// Outputs exist already.
     Exists,
+    /// The frame rate of a video is assumed, or varies.
+    FrameRate,
+    /// Frames of a video are damaged, and others are shown in their places, or it has more than it announces.
+    DamagedFrames,
     /// A projection was detected, and may be another.
     Detected,
     /// A file's metadata contradicts its declaration.

@@ -145,6 +145,11 @@ impl ConvertError {
         }
     }
 
+    /// Returns whether it is about a damaged frame that is to be left out.
+    pub(crate) fn is_left_out(&self) -> bool {
+        matches!(self, Self::Io(IoError::LeftOut { .. }))
+    }
+
     /// Returns the kind of the error.
     pub fn code(&self) -> Code {
         match self {
@@ -213,11 +218,12 @@ fn of_file(error: &IoError) -> Code {
         | IoError::NoFrames { .. }
         | IoError::MissingFrames { .. } => Code::NotFound,
         IoError::FaceIsFolder { .. } => Code::Unreadable,
-        IoError::Empty { .. } | IoError::Damaged { .. } => Code::Damaged,
+        IoError::Empty { .. } | IoError::Damaged { .. } | IoError::LeftOut { .. } => Code::Damaged,
         IoError::UnknownContent { .. } | IoError::Unsupported { .. } => Code::Unsupported,
         IoError::TooLarge { .. } => Code::Memory,
         IoError::UnknownExtension { .. } | IoError::CannotHold { .. } => Code::OutputFormat,
         IoError::Write { .. } => Code::Unwritable,
+        IoError::Video(_) => Code::Failed,
         IoError::NotAFacePattern { .. }
         | IoError::NoSuchPart { .. }
         | IoError::NoSuchChannel { .. }

@@ -98,6 +98,10 @@ settings! {
     BackdropFrames "backdrop-frames" BACKDROP_FRAMES,
     /// Frames of a sequence.
     Frames "frames" FRAMES,
+    /// Frames a second of a path by time, and of a video.
+    Fps "fps" FPS,
+    /// Codec of a video.
+    VideoCodec "video-codec" VIDEO_CODEC,
     /// Whether existing outputs are replaced.
     Overwrite "overwrite" OVERWRITE,
     /// Whether complete outputs are kept.

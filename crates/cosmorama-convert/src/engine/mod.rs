@@ -27,4 +27,4 @@ pub(crate) use posed::Posed;
 pub(crate) use sequence::{Sequence, Watcher};
 pub(crate) use shares::Shares;
 pub(crate) use timing::{Stage, Stages};
-pub(crate) use writer::{Levels, Writer};
+pub(crate) use writer::{FrameWords, Levels, Writer, WriterOptions};

@@ -17,7 +17,7 @@ use rayon::{Scope, ThreadPool};
 use crate::diagnostic::{InPlace, Result, bail};
 use crate::engine::frame::files::named;
 use crate::engine::lighting::between::{Between, InterpolationReport};
-use crate::engine::{Engine, FrameFile, FrameLight, Levels, Stage, Stages, ViewImage, Which};
+use crate::engine::{Engine, FrameFile, FrameLight, FrameWords, Levels, Stage, Stages, ViewImage, Which};
 use crate::job::{ConvertJob, FrameOutputs, QueueDepth};
 
 /// The frames of a job while they are made.
@@ -43,11 +43,14 @@ pub(crate) trait Watcher {
 /// Results of tasks in the pool.
 type Results<T> = Vec<Receiver<Result<T>>>;
 
+/// Images of a file; `None` for a damaged frame of a video that is to be left out.
+type FileImages = Option<Vec<ViewImage>>;
+
 /// Frames in flight. Those that are read have their index in the sequence, their outputs and their files' images; those
 /// that are written have their outputs and a result for each file.
 #[derive(Default)]
 struct Queues<'a> {
-    read: VecDeque<(usize, &'a FrameOutputs, Results<Vec<ViewImage>>)>,
+    read: VecDeque<(usize, &'a FrameOutputs, Results<FileImages>)>,
     written: VecDeque<(&'a FrameOutputs, Results<()>)>,
 }
 
@@ -101,6 +104,10 @@ impl<'a> Sequence<'a> {
                 error
             };
             let images = all_of(results).at(|| named(frame))?;
+            let Some(images) = images.into_iter().collect::<Option<Vec<_>>>() else {
+                self.engine.writer().leave_out(place - 1)?;
+                continue;
+            };
             let images: Vec<ViewImage> = images.into_iter().flatten().collect();
             let memory = self.engine.pool();
             let filled = self.pool.install(|| light.fill(self.job, frame.frame, &images, (self.stages, memory)));
@@ -128,13 +135,21 @@ impl<'a> Sequence<'a> {
     }
 
     /// Starts reading the files of a frame.
-    fn have_read<'s>(&self, turn: Turn<'_, 's>, frame: &FrameOutputs, which: Which) -> Results<Vec<ViewImage>>
+    fn have_read<'s>(&self, turn: Turn<'_, 's>, frame: &FrameOutputs, which: Which) -> Results<FileImages>
     where
         'a: 's,
     {
         let Self { job, engine, stages, .. } = *self;
         let files = FrameFile::all(job, frame.frame, which).into_iter();
-        let read = |file: FrameFile| task(turn, move || stages.beside(Stage::Decode, || file.read(job, engine.pool())));
+        // Maps of light are interpolated between frames, of which none may be missing.
+        let may_lack = job.lighting.is_none();
+        let read = |file: FrameFile| {
+            let images = move || match file.read(job, engine.pool()) {
+                Err(error) if may_lack && error.is_left_out() => Ok(None),
+                images => images.map(Some),
+            };
+            task(turn, move || stages.beside(Stage::Decode, images))
+        };
         files.map(read).collect()
     }
 
@@ -150,13 +165,11 @@ impl<'a> Sequence<'a> {
     {
         let Self { job, engine, stages, .. } = *self;
         let origin = job.origin_of(frame.frame)?.map(Arc::<str>::from);
+        let words = FrameWords { place: turn.2 - 1, carried, origin };
         let write = |((_, path), levels): (&'a (usize, std::path::PathBuf), Levels)| {
             let path: &'a Path = path;
-            let (carried, origin) = (carried.clone(), origin.clone());
-            let save = move || {
-                let said = (carried.as_ref(), origin.as_deref());
-                engine.writer().save_frame(said, levels, path, Threads::One)
-            };
+            let words = words.clone();
+            let save = move || engine.writer().save(words, levels, path, Threads::One);
             task(turn, move || stages.beside(Stage::Encode, save))
         };
         Ok(frame.files.iter().zip(pictures).map(write).collect())

@@ -7,6 +7,7 @@ use cosmorama_io::{Carried, LayeredImage, Plane, Remark, WriteOptions, write_lay
 
 use crate::colour::{Light, LightConversion, PictureNames};
 use crate::diagnostic::Result;
+use crate::video::MadeVideos;
 
 /// A picture and its mip levels.
 pub(crate) enum Levels {
@@ -28,6 +29,26 @@ impl Levels {
     }
 }
 
+/// Options of a writer.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct WriterOptions {
+    /// Options of files of pictures.
+    pub(crate) files: WriteOptions,
+    /// Outputs that are videos.
+    pub(crate) videos: Arc<MadeVideos>,
+}
+
+/// Words about a frame that is written.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct FrameWords {
+    /// Place of the frame among all that are made, from 0.
+    pub(crate) place: usize,
+    /// Metadata of the frame's inputs.
+    pub(crate) carried: Option<Arc<Carried>>,
+    /// Words about how the frame was made.
+    pub(crate) origin: Option<Arc<str>>,
+}
+
 /// Writer of pictures that share one kind of samples.
 pub(crate) struct Writer {
     /// Conversion of light before it is encoded.
@@ -36,6 +57,7 @@ pub(crate) struct Writer {
     /// Names of the picture's channels, if they are not the usual ones.
     names: Vec<String>,
     options: WriteOptions,
+    videos: Arc<MadeVideos>,
     /// Statement about the pixels that is known once they are made.
     said: OnceLock<Remark>,
     /// Whether samples are half floats.
@@ -45,7 +67,7 @@ pub(crate) struct Writer {
 }
 
 impl Writer {
-    pub(crate) fn new(light: &Light, names: &PictureNames, options: WriteOptions) -> Self {
+    pub(crate) fn new(light: &Light, names: &PictureNames, options: WriterOptions) -> Self {
         let names = match names {
             PictureNames::Given(names) => names.clone(),
             PictureNames::Usual | PictureNames::LeftOut => Vec::new(),
@@ -53,7 +75,8 @@ impl Writer {
         let encoder = Encoder::new(light.channels, light.depth, &light.transfer);
         let is_half = light.depth == Depth::Half;
         let (conversion, said, overflowed) = (light.output(), OnceLock::new(), AtomicUsize::new(0));
-        Self { conversion, encoder, names, options, said, is_half, overflowed }
+        let WriterOptions { files: options, videos } = options;
+        Self { conversion, encoder, names, options, videos, said, is_half, overflowed }
     }
 
     /// Returns the number of samples so far that are written as the largest half float, because they are brighter.
@@ -68,31 +91,20 @@ impl Writer {
         }
     }
 
-    /// Writes an output: a picture and its mip levels. Their memory goes back to the pool.
-    pub(crate) fn save(&self, levels: Levels, path: &Path, threads: Threads) -> Result<()> {
-        self.save_with(&self.options, levels, path, threads)
+    /// Leaves a frame out of outputs that are videos.
+    pub(crate) fn leave_out(&self, place: usize) -> Result<()> {
+        Ok(self.videos.leave_out(place, &self.options.pool)?)
     }
 
-    /// Writes an output with what its own frame says: metadata of the frame's inputs, and words about how it was made.
-    pub(crate) fn save_frame(
-        &self,
-        (carried, origin): (Option<&Arc<Carried>>, Option<&str>),
-        levels: Levels,
-        path: &Path,
-        threads: Threads,
-    ) -> Result<()> {
+    /// Writes an output of a frame, a picture and its mip levels, with what its own frame says. Their memory goes back to the pool.
+    pub(crate) fn save(&self, words: FrameWords, levels: Levels, path: &Path, threads: Threads) -> Result<()> {
         let mut options = self.options.clone();
-        if let Some(carried) = carried {
-            options.metadata.carried = Arc::clone(carried);
+        if let Some(carried) = words.carried {
+            options.metadata.carried = carried;
         }
-        options.metadata.origin = origin.map(str::to_owned);
-        self.save_with(&options, levels, path, threads)
-    }
-
-    fn save_with(&self, options: &WriteOptions, levels: Levels, path: &Path, threads: Threads) -> Result<()> {
-        let mut said = options.clone();
-        said.metadata.remarks.extend(self.said.get().cloned());
-        let options = &said;
+        options.metadata.origin = words.origin.as_deref().map(str::to_owned);
+        options.metadata.remarks.extend(self.said.get().cloned());
+        let options = &options;
         let pool = &*self.options.pool;
         let encode = |mut image: Image<Rgba>| {
             if let Some(conversion) = &self.conversion {
@@ -118,6 +130,11 @@ impl Writer {
                 return Ok(written?);
             }
         };
+        if self.videos.holds(path) {
+            // A frame has no levels.
+            let frame = encoded.into_iter().next();
+            return Ok(frame.map_or(Ok(()), |frame| self.videos.put(path, words.place, frame, pool))?);
+        }
         let written = write_levels(path, &encoded, options);
         encoded.into_iter().for_each(|image| pool.give(image.into_samples()));
         Ok(written?)

@@ -29,7 +29,7 @@ impl Input {
 
     /// Returns whether an input has a frame marker, or lists views that may have one.
     pub(crate) fn may_be_sequence(pattern: &str) -> bool {
-        world_file::is_world_file(pattern) || ViewFiles::new(Path::new(pattern)).sequence().is_some()
+        world_file::is_world_file(pattern) || ViewFiles::new(Path::new(pattern)).has_frames()
     }
 }
 

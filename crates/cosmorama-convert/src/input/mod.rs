@@ -27,7 +27,8 @@ use cosmorama::camera::View;
 use cosmorama_io::{EnvMap, Header, Pose};
 
 use crate::detect::GivenFaces;
-use crate::diagnostic::{Code, Diagnostic, FROM, TO};
+use crate::diagnostic::{Code, Diagnostic, FROM, Result, TO};
+use crate::source::Access;
 
 /// The input of a conversion: views, frames and files.
 pub struct Input {
@@ -147,10 +148,21 @@ impl Input {
 
     /// Visits every file that is read.
     pub(crate) fn files(&self) -> impl Iterator<Item = PathBuf> {
-        self.frames.iter().flat_map(|frame| self.paths(*frame)).chain(self.beside.iter().cloned())
+        let of_frame =
+            |frame: &Option<u64>| self.present().map(|(input, ..)| input.files.file(*frame)).collect::<Vec<_>>();
+        self.frames.iter().flat_map(of_frame).chain(self.beside.iter().cloned())
     }
 
-    /// Returns the files of a frame.
+    /// Tells the videos which of their frames will be read.
+    pub(crate) fn expect_frames(&self, access: Access) -> Result<()> {
+        let Some(videos) = access.files.videos() else { return Ok(()) };
+        for video in self.present().filter_map(|(view, ..)| view.files.video()) {
+            videos.expect(video, self.frames.iter().copied().flatten())?;
+        }
+        Ok(())
+    }
+
+    /// Returns the files of a frame; frames of videos have names of their own.
     pub(crate) fn paths(&self, frame: Option<u64>) -> Vec<PathBuf> {
         self.present().map(|(input, _, _)| input.files.path(frame)).collect()
     }

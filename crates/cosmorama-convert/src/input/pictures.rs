@@ -99,10 +99,18 @@ impl Input {
         warnings: &mut Vec<Diagnostic>,
     ) -> Result<Self> {
         let files = ViewFiles::new(Path::new(pattern));
-        let frames = wanted_frames::find(&files, wanted).map_err(with_faces)?;
+        if let Some(video) = files.video() {
+            is_one_file(access.files, pattern, video)?;
+        }
+        let frames = wanted_frames::find(&files, access.files, wanted).map_err(with_faces)?;
         let path = files.path(frames[0]);
-        is_one_file(access.files, pattern, &path)?;
+        if files.video().is_none() {
+            is_one_file(access.files, pattern, &path)?;
+        }
         let mut header = header(access, &path, eye)?;
+        if let (None, Some(said)) = (shape, said_by(&files, access, warnings)?) {
+            return Self::of_eyes(pattern, Some(&said), wanted, access, warnings);
+        }
         let shape = match shape {
             Some(shape) => {
                 let declared = declared(shape, pattern, &header, warnings)?;
@@ -146,7 +154,8 @@ impl Input {
     }
 
     fn single(pattern: &str, files: ViewFiles, path: &Path, header: Header, single: Single) -> Result<InputView> {
-        let name = path.file_name().map_or_else(|| pattern.to_owned(), |name| name.to_string_lossy().into_owned());
+        let file = files.video().unwrap_or(path);
+        let name = file.file_name().map_or_else(|| pattern.to_owned(), |name| name.to_string_lossy().into_owned());
         let mut placement = single.placement;
         let canvas = placement.canvas.or(header.window.map(canvas_of)).unwrap_or_else(|| whole(&header));
         fits_canvas(path, &header, canvas)?;
@@ -170,6 +179,18 @@ impl Input {
             wanted: true,
         })
     }
+}
+
+/// Returns the projection that the spherical tags of a video name, and tells of it.
+fn said_by(files: &ViewFiles, access: Access, warnings: &mut Vec<Diagnostic>) -> Result<Option<Spec>> {
+    let Some((video, videos)) = files.video().zip(access.files.videos()) else { return Ok(None) };
+    let said = videos.spec(video)?;
+    warnings.extend(said.as_ref().map(|spec| {
+        let name = video.display();
+        let message = format!("{name} is read as {FROM} {spec}, as its spherical tags say");
+        Diagnostic::note(Code::Detected, message).about(name)
+    }));
+    Ok(said)
 }
 
 /// Returns the note about a picture of one pixel, whose shape says nothing about its projection.

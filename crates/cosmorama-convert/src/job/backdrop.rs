@@ -83,8 +83,8 @@ impl FoundBackdrop {
         if let Content::Directions(_) = content {
             return Err(usage(format!("{BACKDROP} {name}: these are numbers, not light; give a picture of a world")));
         }
-        let files: Arc<dyn Files> =
-            Arc::new(ChosenFiles { files: Arc::clone(&settings.files), choice: Choice::default() });
+        let files = ChosenFiles::new(Arc::clone(&settings.files), Choice::default(), settings.video.damaged);
+        let files: Arc<dyn Files> = Arc::new(files);
         let decoded = DecodedPicture::up_to(memory.bytes / DECODED_PART);
         let access = Access { files: &*files, memory, decoded: &decoded };
         let mut said = Vec::new();
@@ -140,6 +140,7 @@ impl FoundBackdrop {
         input.frames = frames;
         content.fit_eyes(&mut input, front.target, warnings);
         let access = Access { files: &*files, memory: front.memory, decoded: &decoded };
+        input.expect_frames(access)?;
         let movement = if settings.geometry.in_path.is_some() {
             let frames = (front.frames, None);
             let moved = Movement::resolve(&settings.geometry, &front.target.views, frames, access, warnings)?;

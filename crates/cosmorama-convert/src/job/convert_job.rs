@@ -91,7 +91,8 @@ fn chosen(settings: &Conversion, content: Content) -> Arc<dyn Files> {
     let (part, channels) = (settings.part.clone(), settings.channels.clone());
     let is_exr = Format::from_extension(Path::new(&settings.output)).is_ok_and(|format| format == Format::Exr);
     let without_picture = content == Content::World && is_exr && settings.light.is_none();
-    Arc::new(ChosenFiles { files: Arc::clone(&settings.files), choice: Choice { part, channels, without_picture } })
+    let choice = Choice { part, channels, without_picture };
+    Arc::new(ChosenFiles::new(Arc::clone(&settings.files), choice, settings.video.damaged))
 }
 
 /// Resolves the movement of the camera and of the input, which gives a still input its frames.
@@ -166,6 +167,7 @@ impl ConvertJob {
             target = target.with_chain(&settings.output, geometry, light.levels.len())?;
         }
         let movement = move_camera(settings, geometry, (&mut input, &target), access, warnings)?;
+        input.expect_frames(access)?;
         warnings.extend(input.diagnostics());
         check_choice(settings, &input, warnings)?;
         warnings.extend(shape_warning(geometry, &target));
@@ -261,7 +263,8 @@ impl ConvertJob {
         if purpose == Purpose::Light {
             return Ok(());
         }
-        self.origin = (!settings.strip).then(|| Origin::of(self, settings));
+        let has_place = !settings.strip && !self.target.format.is_video();
+        self.origin = has_place.then(|| Origin::of(self, settings));
         let mut outputs = std::mem::take(&mut self.outputs);
         let left = outputs.leave_finished(settings.existing, self);
         self.outputs = outputs;

@@ -119,7 +119,7 @@ impl MemoryBudget {
     /// Returns how many frames may be in flight around the one that is filtered, beside the geometry that they share.
     /// Each frame's files keep a thread busy, so more frames than threads are of no use.
     pub(crate) fn queue_depth(self, input: &Input, target: &Target, plans: u64, threads: usize) -> QueueDepth {
-        let moving = input.present().filter(|(view, ..)| view.files.sequence().is_some());
+        let moving = input.present().filter(|(view, ..)| view.files.has_frames());
         let (files, read) = moving
             .fold((0, 0_u64), |(files, bytes), (_, header, _)| (files + 1, bytes.saturating_add(read_bytes(header))));
         let wanted = |files: usize| 1 + threads.div_ceil(files.max(1));

@@ -37,9 +37,11 @@ impl Outputs {
         self.frames.iter().any(|frame| frame.frame.is_some())
     }
 
-    /// Visits all outputs to make.
+    /// Visits all outputs to make. A video is one output of all frames.
     pub(crate) fn paths(&self) -> impl Iterator<Item = &Path> {
-        self.frames.iter().flat_map(|frame| frame.files.iter().map(|(_, path)| path.as_path()))
+        let mut seen = HashSet::new();
+        let paths = self.frames.iter().flat_map(|frame| frame.files.iter().map(|(_, path)| path.as_path()));
+        paths.filter(move |path| seen.insert(*path))
     }
 
     /// Returns the warning about outputs that are made again.
@@ -60,13 +62,15 @@ impl Outputs {
         target: &Target,
     ) -> Result<Self> {
         check_frame_markers(args, input, target)?;
+        check_resume(args, target)?;
         let inputs = files_read((input, behind), &args.geometry);
         let (mut frames, mut made) = (Vec::new(), NewFolders::new(&args.unfinished));
         let (mut folders, mut places) = (HashSet::new(), HashMap::new());
         for &frame in &input.frames {
-            let path = |file: &TargetFile| file.files.path(frame);
+            let path = |file: &TargetFile| file.files.file(frame);
             let files: Vec<(usize, PathBuf)> = target.files.iter().map(path).enumerate().collect();
-            for (_, path) in &files {
+            let is_begun = target.format.is_video() && !frames.is_empty();
+            for (_, path) in files.iter().filter(|_| !is_begun) {
                 check_apart(path, &inputs)?;
                 // Not the folder behind a link: if that is missing, its disk may not be mounted.
                 if let (true, Some(folder)) = (args.make_folders, path.parent()) {
@@ -118,7 +122,8 @@ fn make_folder(made: &mut NewFolders, folder: &Path) -> Result<()> {
 /// error.
 fn check_frame_markers(args: &Conversion, input: &Input, target: &Target) -> Result<()> {
     let numbered = target.files.iter().all(|file| matches!(file.files, ViewFiles::Sequence(_)));
-    if input.frames.len() > 1 && args.to_stream {
+    let takes_all = target.files.iter().all(|file| file.files.has_frames());
+    if input.frames.len() > 1 && args.to_stream && !takes_all {
         return Err(usage(format!(
             "{} frames cannot go to standard output, which takes one picture; choose one of them, as in {FRAMES} {}, or name \
              output files with ####",
@@ -126,7 +131,7 @@ fn check_frame_markers(args: &Conversion, input: &Input, target: &Target) -> Res
             input.frames[0].unwrap_or_default()
         )));
     }
-    if input.frames.len() > 1 && !numbered {
+    if input.frames.len() > 1 && !takes_all {
         return Err(usage(format!(
             "{} frames cannot go into the one file {}; put #### or %04d where the frame number stands",
             input.frames.len(),
@@ -137,6 +142,17 @@ fn check_frame_markers(args: &Conversion, input: &Input, target: &Target) -> Res
         return Err(usage(format!(
             "{} has a frame marker, but the input {} has none; give both one, or neither",
             args.output, args.input
+        )));
+    }
+    Ok(())
+}
+
+/// Refuses to go on with a video.
+fn check_resume(args: &Conversion, target: &Target) -> Result<()> {
+    if target.format.is_video() && args.existing == Existing::Resume {
+        return Err(usage(format!(
+            "{RESUME}: {} is a video, which is made whole or not at all; leave {RESUME} out, or name frames, as in frames/####.png",
+            args.output
         )));
     }
     Ok(())

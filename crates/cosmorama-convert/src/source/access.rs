@@ -12,6 +12,7 @@ use cosmorama_io::{
 
 use super::decoded_picture::DecodedPicture;
 use crate::source::MemoryBudget;
+use crate::video::{DamagedFrames, FrameName, RawFiles, Videos};
 
 /// Source of the bytes of inputs: disk, memory, an archive. Inputs are pictures, masks, st maps, calibrations, world
 /// files and Hugin projects. Patterns of frames and faces are always searched on disk.
@@ -20,7 +21,7 @@ pub trait Files: Debug + Send + Sync {
     ///
     /// # Errors
     /// When the file cannot be opened.
-    fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek>, IoError>;
+    fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek + Send>, IoError>;
 
     /// Returns whether a file is held here, whatever is on disk.
     fn holds(&self, path: &Path) -> bool;
@@ -29,20 +30,51 @@ pub trait Files: Debug + Send + Sync {
     fn choice(&self) -> Choice {
         Choice::default()
     }
+
+    /// Returns the videos whose frames are pictures here; `None` where videos are files like others.
+    fn videos(&self) -> Option<&Videos> {
+        None
+    }
 }
 
-/// Files of which only a part, or some of the channels, is read.
-#[derive(Clone, Debug)]
+/// Returns a source of inputs in which frames of videos are pictures, too. Videos are always read from disk, and streams of raw pictures
+/// from `files`.
+pub fn with_videos(files: Arc<dyn Files>) -> Arc<dyn Files> {
+    Arc::new(ChosenFiles::new(files, Choice::default(), DamagedFrames::default()))
+}
+
+/// Files of which only a part, or some of the channels, is read, with frames of videos.
+#[derive(Debug)]
 pub(crate) struct ChosenFiles {
     /// Source of bytes.
     pub(crate) files: Arc<dyn Files>,
     /// Selection of what is read.
     pub(crate) choice: Choice,
+    /// Videos whose frames are read.
+    pub(crate) videos: Videos,
+}
+
+/// Source of the bytes of streams of raw pictures.
+#[derive(Debug)]
+struct Streams(Arc<dyn Files>);
+
+impl RawFiles for Streams {
+    fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek + Send>, IoError> {
+        self.0.open(path)
+    }
+}
+
+impl ChosenFiles {
+    /// Creates files of which a part is read, with an answer to damaged frames of videos.
+    pub(crate) fn new(files: Arc<dyn Files>, choice: Choice, damaged: DamagedFrames) -> Self {
+        let videos = Videos::new(damaged, Arc::new(Streams(Arc::clone(&files))));
+        Self { files, choice, videos }
+    }
 }
 
 impl Files for ChosenFiles {
-    fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek>, IoError> {
-        self.files.open(path)
+    fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek + Send>, IoError> {
+        self.files.open(&FrameName::file(path))
     }
 
     fn holds(&self, path: &Path) -> bool {
@@ -52,6 +84,10 @@ impl Files for ChosenFiles {
     fn choice(&self) -> Choice {
         self.choice.clone()
     }
+
+    fn videos(&self) -> Option<&Videos> {
+        Some(&self.videos)
+    }
 }
 
 /// Files on disk.
@@ -59,7 +95,7 @@ impl Files for ChosenFiles {
 pub struct Disk;
 
 impl Files for Disk {
-    fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek>, IoError> {
+    fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek + Send>, IoError> {
         Ok(Box::new(open(path)?))
     }
 
@@ -88,7 +124,7 @@ impl Debug for InMemory {
 }
 
 impl Files for InMemory {
-    fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek>, IoError> {
+    fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek + Send>, IoError> {
         match self.files.get(path) {
             Some(bytes) => Ok(Box::new(Cursor::new(Arc::clone(bytes)))),
             None => Disk.open(path),
@@ -105,6 +141,9 @@ impl Files for InMemory {
 /// # Errors
 /// When the file cannot be opened, is of no known format, or is damaged before its pixels.
 pub fn probe(files: &dyn Files, path: &Path) -> Result<Header, IoError> {
+    if let Some((name, videos)) = frame(files, path) {
+        return videos.header(&name);
+    }
     probe_chosen(files.open(path)?, path, &files.choice())
 }
 
@@ -121,7 +160,15 @@ pub fn read(files: &dyn Files, path: &Path, limits: &Limits) -> Result<ImageFile
 /// # Errors
 /// As [`read`].
 pub(crate) fn read_in(files: &dyn Files, path: &Path, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
+    if let Some((name, videos)) = frame(files, path) {
+        return videos.picture(&name, limits);
+    }
     read_chosen(files.open(path)?, path, (limits, pool), &files.choice())
+}
+
+/// Returns the frame of a video that a name in place of a file's means, with the videos that are read.
+fn frame<'a>(files: &'a dyn Files, path: &Path) -> Option<(FrameName, &'a Videos)> {
+    Some((FrameName::parse(path)?, files.videos()?))
 }
 
 /// Reads channels of a file beside its picture.
@@ -189,7 +236,7 @@ impl Access<'_> {
     }
 
     /// Opens a file other than a picture. The caller adds to errors what was expected.
-    fn open(self, path: &Path) -> io::Result<Box<dyn ReadSeek>> {
+    fn open(self, path: &Path) -> io::Result<Box<dyn ReadSeek + Send>> {
         self.files.open(path).map_err(|error| match error {
             IoError::Open { source, .. } => source,
             other => io::Error::other(other),

@@ -8,7 +8,7 @@ pub(crate) mod unread;
 pub(crate) mod view_files;
 pub(crate) mod wanted_frames;
 
-pub use access::{Disk, Files, InMemory, probe, read};
+pub use access::{Disk, Files, InMemory, probe, read, with_videos};
 pub use memory_budget::MemoryBudget;
 pub use system_memory::peak_bytes;
 pub use view_files::ViewFiles;

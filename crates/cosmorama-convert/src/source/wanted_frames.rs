@@ -3,11 +3,20 @@ use std::collections::BTreeSet;
 use cosmorama_io::{FrameList, FramePattern, Frames, IoError};
 
 use crate::diagnostic::{FRAMES, Result, bail, usage};
-use crate::source::ViewFiles;
+use crate::source::{Files, ViewFiles};
+
+/// Pictures by frame.
+enum Series<'a> {
+    /// A file for each frame.
+    Files(&'a FramePattern),
+    /// A video, with the number of its frames.
+    Video { name: String, count: u64 },
+}
 
 /// Finds the frames to work on: the requested ones, or all that there are. `[None]` where there is no sequence.
-pub(crate) fn find(files: &ViewFiles, wanted: Option<&FrameList>) -> Result<Vec<Option<u64>>> {
-    find_in(files.sequence().as_slice(), wanted, |_| String::new())
+pub(crate) fn find(files: &ViewFiles, inputs: &dyn Files, wanted: Option<&FrameList>) -> Result<Vec<Option<u64>>> {
+    let series = Series::of(files, inputs)?;
+    find_in(series.as_slice(), wanted, |_| String::new())
 }
 
 /// Finds the frames of a cube's faces: the requested ones, or all that any face has. One error names all that are
@@ -15,19 +24,66 @@ pub(crate) fn find(files: &ViewFiles, wanted: Option<&FrameList>) -> Result<Vec<
 pub(crate) fn find_of_faces(
     pattern: &str,
     faces: &[(&str, &ViewFiles)],
+    inputs: &dyn Files,
     wanted: Option<&FrameList>,
 ) -> Result<Vec<Option<u64>>> {
-    let named = faces.iter().filter_map(|(name, files)| Some((*name, files.sequence()?)));
-    let (names, sequences): (Vec<&str>, Vec<&FramePattern>) = named.unzip();
-    find_in(&sequences, wanted, |lacking| {
+    let (mut names, mut all) = (Vec::new(), Vec::new());
+    for (name, files) in faces {
+        if let Some(series) = Series::of(files, inputs)? {
+            names.push(*name);
+            all.push(series);
+        }
+    }
+    find_in(&all, wanted, |lacking| {
         let names: Vec<&str> = lacking.iter().map(|face| names[*face]).collect();
         format!("{pattern} ({})", names.join(", "))
     })
 }
 
+impl<'a> Series<'a> {
+    /// Returns the pictures of a view by frame; `None` if one picture is for all frames.
+    fn of(files: &'a ViewFiles, inputs: &dyn Files) -> Result<Option<Self>> {
+        Ok(match files {
+            ViewFiles::One(_) => None,
+            ViewFiles::Sequence(pattern) => Some(Self::Files(pattern)),
+            ViewFiles::Video(video) => {
+                let count = inputs.videos().map_or(Ok(0), |videos| videos.count(video))?;
+                Some(Self::Video { name: video.display().to_string(), count })
+            }
+        })
+    }
+
+    fn existing(&self) -> Result<BTreeSet<u64>, IoError> {
+        match self {
+            Self::Files(pattern) => pattern.existing(),
+            Self::Video { count, .. } => Ok((0..*count).collect()),
+        }
+    }
+
+    /// Checks that all frames of a list, or any without one, exist.
+    fn check(&self, list: Option<&FrameList>) -> Result<(), IoError> {
+        match self {
+            Self::Files(pattern) => Frames::find((*pattern).clone(), list).map(|_| ()),
+            Self::Video { name, count } => {
+                let missing = list.iter().flat_map(|list| list.frames()).copied().filter(|frame| frame >= count);
+                let missing: Vec<u64> = missing.collect();
+                if missing.is_empty() {
+                    return Ok(());
+                }
+                Err(IoError::MissingFrames {
+                    pattern: name.clone(),
+                    count: missing.len(),
+                    missing: FrameList::new(missing).to_string(),
+                    existing: (0, count.saturating_sub(1)),
+                })
+            }
+        }
+    }
+}
+
 /// Finds the frames of several sequences; `called` returns a common name for the sequences with some indices.
 fn find_in(
-    sequences: &[&FramePattern],
+    sequences: &[Series],
     wanted: Option<&FrameList>,
     called: impl Fn(&[usize]) -> String,
 ) -> Result<Vec<Option<u64>>> {
@@ -52,10 +108,10 @@ fn find_in(
 }
 
 /// Describes the missing frames of sequences, with those that lack the same ones on one line.
-fn missing(sequences: &[&FramePattern], list: &FrameList, called: impl Fn(&[usize]) -> String) -> Vec<String> {
+fn missing(sequences: &[Series], list: &FrameList, called: impl Fn(&[usize]) -> String) -> Vec<String> {
     let mut found: Vec<(Vec<usize>, IoError)> = Vec::new();
-    for (index, pattern) in sequences.iter().enumerate() {
-        let Err(error) = Frames::find((*pattern).clone(), Some(list)) else { continue };
+    for (index, series) in sequences.iter().enumerate() {
+        let Err(error) = series.check(Some(list)) else { continue };
         match found.iter_mut().find(|(_, other)| is_alike(other, &error)) {
             Some((lacking, _)) => lacking.push(index),
             None => found.push((vec![index], error)),
@@ -84,27 +140,28 @@ fn is_alike(a: &IoError, b: &IoError) -> bool {
 /// Returns the existing frames; none where there is no sequence.
 ///
 /// # Errors
-/// When the files are a sequence, but not one frame exists.
-pub fn existing(files: &ViewFiles) -> Result<Vec<u64>> {
-    let Some(pattern) = files.sequence() else { return Ok(Vec::new()) };
-    let frames = pattern.existing()?;
+/// When the files are a sequence, but not one frame exists, or a video that cannot be read.
+pub fn existing(files: &ViewFiles, inputs: &dyn Files) -> Result<Vec<u64>> {
+    let Some(series) = Series::of(files, inputs)? else { return Ok(Vec::new()) };
+    let frames = series.existing()?;
     if frames.is_empty() {
         // Searching for frames returns the best error when there is none.
-        Frames::find(pattern.clone(), None)?;
+        series.check(None)?;
     }
     Ok(frames.into_iter().collect())
 }
 
 /// Returns all frames from the first to the last of any view.
-fn all_frames(sequences: &[&FramePattern]) -> Result<FrameList> {
+fn all_frames(sequences: &[Series]) -> Result<FrameList> {
     let mut existing = BTreeSet::new();
-    for pattern in sequences {
-        existing.extend(pattern.existing()?);
+    for series in sequences {
+        existing.extend(series.existing()?);
     }
-    match (existing.first(), existing.last()) {
-        (Some(&first), Some(&last)) if last - first < 10_000_000 => Ok(FrameList::new(first..=last)),
+    match (existing.first(), existing.last(), &sequences[0]) {
+        (Some(&first), Some(&last), _) if last - first < 10_000_000 => Ok(FrameList::new(first..=last)),
         // Searching for frames of one sequence returns the best error when there is none.
-        _ => Ok(Frames::find(sequences[0].clone(), None)?.list().clone()),
+        (.., Series::Files(pattern)) => Ok(Frames::find((*pattern).clone(), None)?.list().clone()),
+        (.., Series::Video { name, .. }) => bail!(NotFound: "{name}: a video without a frame; make it again"),
     }
 }
 
@@ -113,6 +170,7 @@ mod tests {
     use std::path::Path;
 
     use super::*;
+    use crate::source::Disk;
 
     /// Returns the messages about faces that have these frames, of which two are asked for.
     fn said(faces: &[(&str, &[u64])]) -> String {
@@ -124,7 +182,8 @@ mod tests {
             frames.iter().for_each(|frame| std::fs::write(files.path(Some(*frame)), "").expect("a file"));
         }
         let faces: Vec<_> = faces.iter().map(|(face, _)| *face).zip(&files).collect();
-        let error = find_of_faces(&pattern, &faces, Some(&FrameList::new([1, 2]))).expect_err("frames are missing");
+        let error =
+            find_of_faces(&pattern, &faces, &Disk, Some(&FrameList::new([1, 2]))).expect_err("frames are missing");
         error.to_string().replace(&format!("{}/", folder.path().display()), "")
     }
 

@@ -11,6 +11,7 @@ use crate::settings::GeometrySettings;
 use crate::source::ViewFiles;
 use crate::target::Picture;
 use crate::target::picture::world_of;
+use crate::video::{RawKind, is_video};
 
 /// An image to make.
 #[derive(Clone)]
@@ -77,8 +78,7 @@ pub(crate) struct Target {
 impl Target {
     /// Checks that an output's name is consistent with `--to`.
     pub(crate) fn check_names(output: &str, geometry: &GeometrySettings) -> Result<Format> {
-        let format = Format::from_extension(Path::new(output))
-            .map_err(|error| usage_as(Code::OutputFormat, error.to_string()))?;
+        let format = format_of(output)?;
         let faces = FacePattern::parse(output).is_some();
         check_markers(output)?;
         match geometry.to.as_ref() {
@@ -187,6 +187,15 @@ impl Target {
     pub(crate) fn is_stereo(&self) -> bool {
         self.views.iter().any(|target| target.eye.is_some())
     }
+}
+
+/// Returns the format of an output, by its extension.
+fn format_of(output: &str) -> Result<Format> {
+    let path = Path::new(output);
+    if is_video(path) {
+        return Ok(RawKind::of(path).map_or(Format::Video, RawKind::format));
+    }
+    Format::from_extension(path).map_err(|error| usage_as(Code::OutputFormat, error.to_string()))
 }
 
 /// Refuses names that contain an invalid marker, which would become part of a file's name. Existing folders may have

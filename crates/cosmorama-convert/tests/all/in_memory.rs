@@ -32,7 +32,7 @@ fn a_picture_in_memory_makes_what_it_makes_on_disk() {
 struct Counted(AtomicUsize);
 
 impl Files for Counted {
-    fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek>, IoError> {
+    fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek + Send>, IoError> {
         self.0.fetch_add(1, Ordering::Relaxed);
         Disk.open(path)
     }

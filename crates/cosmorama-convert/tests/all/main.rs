@@ -5,3 +5,5 @@ mod at_once;
 mod diagnostics;
 mod in_memory;
 mod stop;
+#[cfg(feature = "video")]
+mod videos;

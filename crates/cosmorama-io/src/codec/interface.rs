@@ -7,7 +7,7 @@ use std::path::Path;
 use cosmorama::raster::{EncodedImage, FramePool, Samples};
 
 use crate::header::{Header, ImageFile};
-use crate::{Choice, IoError, Limits, Plane, WriteOptions};
+use crate::{Choice, Format, IoError, Limits, Plane, WriteOptions};
 
 /// Bytes of a file from any source: a file on disk, a slice of memory, or standard input read into memory.
 ///
@@ -98,6 +98,33 @@ pub(crate) trait Codec: Sync {
     /// Reads the two channels of an st map, and possibly others with them.
     fn decode_pairs(&self, path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
         self.decode(path, source, limits, &FramePool::default())
+    }
+}
+
+/// Codec of frames of videos, which another crate reads and writes. It recognises no file, and refuses to write one.
+pub(super) struct Elsewhere;
+
+impl Elsewhere {
+    fn refusal(path: &Path) -> IoError {
+        IoError::unsupported(path, Format::Video, "frames of a video", "a file of one picture")
+    }
+}
+
+impl Codec for Elsewhere {
+    fn recognises(&self, _: &[u8]) -> bool {
+        false
+    }
+
+    fn probe(&self, path: &Path, _: Source<'_>) -> Result<Header, IoError> {
+        Err(Self::refusal(path))
+    }
+
+    fn decode(&self, path: &Path, _: Source<'_>, _: &Limits, _: &FramePool) -> Result<ImageFile, IoError> {
+        Err(Self::refusal(path))
+    }
+
+    fn encode(&self, path: &Path, _: Sink<'_>, _: &EncodedImage, _: &WriteOptions) -> Result<(), IoError> {
+        Err(Self::refusal(path))
     }
 }
 

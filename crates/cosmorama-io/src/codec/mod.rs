@@ -40,6 +40,7 @@ pub(crate) fn codec(format: Format) -> &'static dyn Codec {
         Format::Ktx2 => &texture::Ktx2,
         Format::Ktx => &texture::Ktx,
         Format::Dds => &texture::Dds,
+        Format::Video | Format::Pfm => &interface::Elsewhere,
     }
 }
 

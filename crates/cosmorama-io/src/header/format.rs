@@ -25,6 +25,10 @@ pub enum Format {
     Ktx,
     /// DirectDraw surface with the faces of a cube.
     Dds,
+    /// Frame of a video, or of a stream of pictures; this crate neither reads nor writes its pixels.
+    Video,
+    /// Portable float map in a stream of pictures, as of a video.
+    Pfm,
 }
 
 /// Primaries that a format's files can name.
@@ -34,6 +38,8 @@ enum HeldPrimaries {
     None,
     /// Primaries with a number in the Khronos Data Format Specification.
     Numbered,
+    /// Primaries with a number in ITU-T H.273.
+    Coded,
     /// Any.
     Any,
 }
@@ -147,6 +153,18 @@ impl Properties {
 
     const KTX: Self = Self { name: "KTX", extensions: &["ktx"], ..Self::TEXTURE };
 
+    const VIDEO: Self = Self {
+        name: "video",
+        depths: &[Depth::Eight, Depth::Ten, Depth::Twelve, Depth::Sixteen],
+        channels: &[Channels::Rgb],
+        primaries: HeldPrimaries::Coded,
+        holds_remarks: false,
+        ..Self::PLAIN
+    };
+
+    const PFM: Self =
+        Self { name: "PFM", depths: &[Depth::Float], channels: &[Channels::Rgb], holds_remarks: false, ..Self::PLAIN };
+
     const DDS: Self = Self { name: "DDS", extensions: &["dds"], holds_remarks: false, ..Self::TEXTURE };
 }
 
@@ -154,7 +172,7 @@ impl Properties {
 const LARGEST_SEGMENT: usize = 65_533 - 29;
 
 impl Format {
-    /// All formats.
+    /// All formats of picture files.
     pub const ALL: [Self; 9] =
         [Self::Png, Self::Jpeg, Self::Tiff, Self::Tga, Self::Hdr, Self::Exr, Self::Ktx2, Self::Ktx, Self::Dds];
 
@@ -169,6 +187,8 @@ impl Format {
             Self::Ktx2 => &Properties::KTX2,
             Self::Ktx => &Properties::KTX,
             Self::Dds => &Properties::DDS,
+            Self::Video => &Properties::VIDEO,
+            Self::Pfm => &Properties::PFM,
         }
     }
 
@@ -217,10 +237,10 @@ impl Format {
             return depth;
         }
         match (self, depth) {
-            (Self::Exr, Depth::Sixteen) | (Self::Hdr, _) => Depth::Float,
+            (Self::Exr, Depth::Sixteen) | (Self::Hdr | Self::Pfm, _) => Depth::Float,
             (Self::Exr, _) => Depth::Half,
             (Self::Ktx2 | Self::Ktx | Self::Dds, _) => Depth::Half,
-            (Self::Png | Self::Tiff, _) => Depth::Sixteen,
+            (Self::Png | Self::Tiff | Self::Video, _) => Depth::Sixteen,
             (Self::Jpeg | Self::Tga, _) => Depth::Eight,
         }
     }
@@ -230,7 +250,7 @@ impl Format {
         match self {
             Self::Png | Self::Tiff | Self::Tga | Self::Exr => channels,
             Self::Jpeg => channels.without_alpha(),
-            Self::Hdr => Channels::Rgb,
+            Self::Hdr | Self::Video | Self::Pfm => Channels::Rgb,
             Self::Ktx2 | Self::Ktx | Self::Dds => Channels::Rgba,
         }
     }
@@ -239,6 +259,9 @@ impl Format {
     pub fn keeps_transfer(self, transfer: &Transfer, channels: Channels) -> bool {
         match (self, transfer) {
             (Self::Png, _) => true,
+            // Those with a number in ITU-T H.273.
+            (Self::Video, Transfer::Curve(_) | Transfer::Gamma(_)) => false,
+            (Self::Video, _) => true,
             (Self::Jpeg | Self::Tiff, Transfer::Curve(_)) => true,
             (Self::Jpeg | Self::Tiff | Self::Ktx2, Transfer::Pq | Transfer::Hlg) => channels.is_colour(),
             _ => *transfer == Transfer::Srgb,
@@ -250,8 +273,14 @@ impl Format {
         match self.properties().primaries {
             HeldPrimaries::Any => true,
             HeldPrimaries::Numbered => khronos::primaries_code(Some(primaries)) != khronos::UNSPECIFIED,
+            HeldPrimaries::Coded => primaries.number().is_some(),
             HeldPrimaries::None => primaries.is_same(&Primaries::REC709),
         }
+    }
+
+    /// Returns whether it is that of frames in one file.
+    pub const fn is_video(self) -> bool {
+        matches!(self, Self::Video | Self::Pfm)
     }
 
     /// Returns whether the format's files hold the faces of a cube and nothing else, in an order of the format's own.

@@ -159,6 +159,12 @@ impl Pending {
         &mut self.file
     }
 
+    /// Returns the temporary path, for a program that opens the file by its name. Nothing may be given to
+    /// [`writer`](Self::writer) then.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Gives the complete file its name; an older file is replaced.
     ///
     /// # Errors

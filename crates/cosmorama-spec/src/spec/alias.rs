@@ -1,10 +1,10 @@
-//! Other programs' names for projections and keys: those of ffmpeg's v360 and of envutil.
+//! Other programs' names for projections and keys: those of ffmpeg's v360 and of envutil, and of cameras' videos.
 
 use super::projections::Kind;
 use crate::error::key_for;
 
 /// Other programs' names, each with the SPEC that it stands for.
-pub(super) const ALIASES: [(&str, &str); 33] = [
+pub(super) const ALIASES: [(&str, &str); 34] = [
     ("e", "equirect"),
     ("equirectangular", "equirect"),
     ("latlong", "equirect"),
@@ -13,6 +13,8 @@ pub(super) const ALIASES: [(&str, &str); 33] = [
     ("spherical", "equirect"),
     ("he", "equirect:hfov=180"),
     ("hequirect", "equirect:hfov=180"),
+    // The front half for each eye, as cameras with two eyes and players have it.
+    ("vr180", "equirect:hfov=180,stereo=sbs"),
     ("flat", "perspective"),
     ("gnomonic", "perspective"),
     ("rectilinear", "perspective"),
@@ -50,7 +52,7 @@ const TRIED: [(&[&str], &str); 15] = [
     (&["hemisphere", "hemispherical", "all-sky", "allsky"], "fisheye"),
     (&["imax", "imax-dome", "omni"], "omnimax"),
     (&["360", "vr", "vr360", "pano", "erp", "equi", "sphere", "lat-long", "spheremap", "hdri"], "equirect"),
-    (&["180", "vr180"], "he"),
+    (&["180"], "he"),
     (&["skybox", "cube-map", "cubic", "sixpack"], "cube"),
     (&["cross"], "cube:layout=cross-h"),
     (&["cube3x2", "cubemap3x2", "3x2"], "cube:layout=3x2"),

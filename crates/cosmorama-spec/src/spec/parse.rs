@@ -344,6 +344,8 @@ mod tests {
         assert_eq!(spec("little-planet:pitch=-60"), spec("stereographic:pitch=-60"));
         assert_eq!(spec("dfisheye:fov=195"), spec("dual-fisheye:order=bf,fov=195"));
         assert_eq!(spec("he:stereo=sbs"), spec("equirect:hfov=180,stereo=sbs"));
+        assert_eq!(spec("vr180"), spec("equirect:hfov=180,stereo=sbs"));
+        assert_eq!(spec("vr180:stereo=tb,eye=left"), spec("equirect:hfov=180,stereo=tb,eye=left"));
     }
 
     /// Every projection of `ffmpeg -h filter=v360`, in its order, with its SPEC here; `None` if it is refused by name.
@@ -493,7 +495,7 @@ mod tests {
         ] {
             assert!(refused(typed).contains(&format!("did you mean '{key}'?")), "{}", refused(typed));
         }
-        for (typed, spec) in [("planet", "little-planet"), ("vr180", "he"), ("imax", "omnimax"), ("360", "equirect")] {
+        for (typed, spec) in [("planet", "little-planet"), ("180", "he"), ("imax", "omnimax"), ("360", "equirect")] {
             assert!(refused(typed).contains(&format!("did you mean '{spec}'?")), "{}", refused(typed));
         }
     }

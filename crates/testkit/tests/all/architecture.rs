@@ -30,18 +30,19 @@ const ROOMS: [Room; 15] = [
 ];
 
 /// The rooms of `cosmorama-convert`, lowest floor first.
-const CONVERT_ROOMS: [Room; 11] = [
+const CONVERT_ROOMS: [Room; 12] = [
     ("diagnostic", &[]),
-    ("source", &["diagnostic"]),
+    ("video", &["diagnostic"]),
+    ("source", &["diagnostic", "video"]),
     ("packing", &["diagnostic"]),
-    ("settings", &["source"]),
+    ("settings", &["source", "video"]),
     ("detect", &["diagnostic", "source", "packing"]),
     ("input", &["diagnostic", "source", "packing", "settings", "detect"]),
-    ("target", &["diagnostic", "source", "packing", "settings"]),
+    ("target", &["diagnostic", "source", "packing", "settings", "video"]),
     ("colour", &["diagnostic", "settings", "input", "target"]),
-    ("job", &["diagnostic", "source", "settings", "detect", "input", "target", "colour"]),
-    ("engine", &["diagnostic", "source", "packing", "settings", "detect", "input", "target", "colour", "job"]),
-    ("conversion", &["diagnostic", "source", "settings", "input", "target", "colour", "job", "engine"]),
+    ("job", &["diagnostic", "source", "settings", "detect", "input", "target", "colour", "video"]),
+    ("engine", &["diagnostic", "source", "packing", "settings", "detect", "input", "target", "colour", "job", "video"]),
+    ("conversion", &["diagnostic", "source", "settings", "input", "target", "colour", "job", "engine", "video"]),
 ];
 
 /// Crates whose rooms have floors.
@@ -78,7 +79,7 @@ struct CratePlan {
     reason: &'static str,
 }
 
-const CRATES: [CratePlan; 8] = [
+const CRATES: [CratePlan; 9] = [
     CratePlan {
         name: "cosmorama",
         crates: &[],
@@ -123,8 +124,16 @@ const CRATES: [CratePlan; 8] = [
         reason: "files know no geometry and no terminal",
     },
     CratePlan {
+        name: "cosmorama-video",
+        crates: &["cosmorama", "cosmorama-io"],
+        rooms: &["raster"],
+        banned_std: &["net"],
+        banned: &["glam", "println", "eprintln"],
+        reason: "videos know no geometry and no terminal",
+    },
+    CratePlan {
         name: "cosmorama-convert",
-        crates: &["cosmorama", "cosmorama-builtin", "cosmorama-io", "cosmorama-spec"],
+        crates: &["cosmorama", "cosmorama-builtin", "cosmorama-io", "cosmorama-spec", "cosmorama-video"],
         rooms: ALL,
         banned_std: &["f32", "f64", "net", "process"],
         banned: &[

@@ -4,10 +4,10 @@ use cosmorama::filter::LabelRule;
 use cosmorama::motion::{Easing, Ramp, ShutterCurve, Smoothness};
 use cosmorama::sphere::{Angle, Orientation};
 use cosmorama_convert::BlurMethod;
-use cosmorama_spec::{FilterName, KernelName, Size, Spec};
+use cosmorama_spec::{FilterName, FrameRate, KernelName, Size, Spec};
 
 use crate::parse::listed;
-use crate::parse::number::{degrees, positive, ramp, zoom};
+use crate::parse::number::{degrees, ramp, zoom};
 
 /// Geometry and filter of a conversion, shared by `convert` and `explain`.
 #[derive(Clone, Debug, Args)]
@@ -101,9 +101,11 @@ pub(crate) struct CameraArgs {
     /// A camera's own motion steadies its pictures: its poses, as its gyroscope measured them, put each frame where it was taken.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new(), hide_short_help = true, help_heading = "Geometry")]
     pub(crate) in_path: Option<String>,
-    /// Frames a second, where a path has time in seconds instead of frame
-    #[arg(long, value_name = "N", value_parser = positive, allow_hyphen_values = true, hide_short_help = true, help_heading = "Geometry")]
-    pub(crate) fps: Option<f64>,
+    /// Frames a second: of a video that is made [default: as the input, or 30], and where a path has time instead of frame
+    ///
+    /// As in 25, 30000/1001 or 29.97.
+    #[arg(long, value_name = "N", allow_hyphen_values = true, hide_short_help = true, help_heading = "Geometry")]
+    pub(crate) fps: Option<FrameRate>,
     /// From pose to pose of a path: slerp (default), or smooth, whose rate does not jump
     #[arg(long, value_name = "CURVE", value_parser = path_curve(), hide_possible_values = true, hide_short_help = true, help_heading = "Geometry")]
     pub(crate) path_curve: Option<Smoothness>,

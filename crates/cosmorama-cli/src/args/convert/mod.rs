@@ -1,5 +1,6 @@
 mod geometry;
 mod settings;
+mod video;
 
 use clap::builder::{NonEmptyStringValueParser, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
@@ -16,6 +17,8 @@ use crate::parse::progress::ProgressStyle;
 
 pub(super) use geometry::{CameraArgs, GeometryArgs, ShutterArgs, TurnArgs};
 pub(super) use settings::existing;
+pub(super) use video::FramesAsked;
+pub(crate) use video::VideoArgs;
 
 /// Example commands in its help.
 pub(super) const EXAMPLES: [&str; 10] = [
@@ -68,13 +71,14 @@ impl From<OcioArgs> for OcioSettings {
 #[command(help_template = with_examples(&EXAMPLES))]
 #[command(after_help = SEE_MORE, after_long_help = after_long_help())]
 pub(crate) struct ConvertArgs {
-    /// An image, a pattern or builtin:NAME; - is standard input
+    /// An image, a pattern, a video or builtin:NAME; - is standard input
     ///
     /// A pattern has {face} or %c where faces' names stand, and ####, @@@@ or %04d where frame numbers do. A world file (.toml)
-    /// holds many views, each with image, spec, mask, priority and feather in degrees; a Hugin project (.pto) is read, too.
+    /// holds many views, each with image, spec, mask, priority and feather in degrees; a Hugin project (.pto) is read, too. A video is
+    /// read through the installed ffmpeg (docs/video.md).
     #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
     pub(crate) input: String,
-    /// An image or a pattern, by its extension; - is standard output
+    /// An image, a pattern or a video, by its extension; - is standard output
     #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
     pub(crate) output: String,
     #[command(flatten)]
@@ -171,6 +175,8 @@ pub(crate) struct ConvertArgs {
     #[arg(long, value_name = "RULE", value_parser = frame_map, requires = "backdrop", allow_hyphen_values = true, hide_short_help = true, help_heading = "Frames and files")]
     pub(crate) backdrop_frames: Option<FrameMap>,
     #[command(flatten)]
+    pub(crate) video: VideoArgs,
+    #[command(flatten)]
     pub(crate) files: FilesArgs,
     /// The format of standard output, as in --format png
     #[arg(long, value_name = "EXT", help_heading = "Frames and files")]
@@ -199,9 +205,10 @@ pub(crate) struct ConvertArgs {
 pub(crate) struct FilesArgs {
     /// Which frames: 5, 1-10 or 1-3,5,7-20:2 [default: all]
     ///
-    /// Unless given, all from the first that exists to the last.
-    #[arg(long, value_name = "LIST", value_parser = frame_list, allow_hyphen_values = true, help_heading = "Frames and files")]
-    pub(crate) frames: Option<FrameList>,
+    /// Unless given, all from the first that exists to the last. Those of a video count from 0, or are chosen by time, as in
+    /// 00:01:00-00:01:10, which ends before its second time.
+    #[arg(long, value_name = "LIST", value_parser = FramesAsked::parse, allow_hyphen_values = true, help_heading = "Frames and files")]
+    pub(crate) frames: Option<FramesAsked>,
     /// Replace existing outputs
     #[arg(short = 'y', long, conflicts_with = "resume", help_heading = "Frames and files")]
     pub(crate) overwrite: bool,

@@ -1,21 +1,25 @@
 //! Conversion of arguments to settings; all later code sees only these.
 
+use std::path::{Path, PathBuf};
+
 use cosmorama::filter::FilterKind;
 use cosmorama::motion::{Ramp, Shutter};
 use cosmorama::raster::Depth;
 use cosmorama::sphere::{Angle, Orientation};
 use cosmorama_convert::{
     Backdrop, BlurMethod, CameraMovement, Conversion, Existing, ExplanationSettings, GeometrySettings, LayerSettings,
-    LimitSettings, MotionBlur, PoseFile,
+    LimitSettings, MotionBlur, PoseFile, is_video,
 };
-use cosmorama_spec::FilterName;
+use cosmorama_spec::{FilterName, FrameRate};
 
 use super::geometry::{CameraArgs, GeometryArgs, MotionKind, ShutterArgs};
-use super::{ConvertArgs, LimitArgs};
+use super::{ConvertArgs, FramesAsked, LimitArgs};
 use crate::args::ExplainArgs;
 
 impl From<ConvertArgs> for Conversion {
     fn from(args: ConvertArgs) -> Self {
+        let (frames, times) = FramesAsked::parted(args.files.frames);
+        let video = args.video.settings(args.camera.fps);
         Self {
             input: args.input,
             output: args.output,
@@ -39,7 +43,9 @@ impl From<ConvertArgs> for Conversion {
                 frames: args.backdrop_frames.unwrap_or_default(),
                 ..Backdrop::new(input)
             }),
-            frames: args.files.frames,
+            frames,
+            times,
+            video,
             existing: existing(args.files.overwrite, args.files.resume),
             make_folders: !args.files.no_mkdir,
             to_stream: args.format.is_some(),
@@ -66,11 +72,23 @@ impl From<ExplainArgs> for ExplanationSettings {
     }
 }
 
+impl ConvertArgs {
+    /// Returns the output's name, which is that of a file of its format for standard output.
+    pub(crate) fn named_output(&self) -> PathBuf {
+        let of_stream = |format: &String| format!("{}.{}", self.output, format.trim_start_matches('.')).into();
+        self.format.as_ref().map_or_else(|| self.output.clone().into(), of_stream)
+    }
+}
+
 /// Returns the geometry of a camera that may move.
 fn moved(geometry: GeometryArgs, camera: CameraArgs) -> GeometrySettings {
     let angles = [geometry.yaw, geometry.pitch, geometry.roll];
     let moves = angles.iter().chain(&camera.fov).any(Ramp::moves);
-    let poses = |file: String| PoseFile { file, fps: camera.fps, smoothness: camera.path_curve.unwrap_or_default() };
+    let poses = |file: String| PoseFile {
+        file,
+        fps: camera.fps.map(FrameRate::per_second),
+        smoothness: camera.path_curve.unwrap_or_default(),
+    };
     let in_path = camera.in_path.map(poses);
     let movement = match camera.path {
         Some(file) => Some(CameraMovement::Path(poses(file))),
@@ -133,13 +151,13 @@ impl ShutterArgs {
 
 impl CameraArgs {
     /// Returns an option that has no effect without another, and why.
-    pub(crate) fn idle(&self, geometry: &GeometryArgs) -> Option<String> {
+    pub(crate) fn idle(&self, geometry: &GeometryArgs, output: Option<&Path>) -> Option<String> {
         let turns = [geometry.yaw, geometry.pitch, geometry.roll].iter().chain(&self.fov).any(Ramp::moves);
         let has_poses = self.path.is_some() || self.in_path.is_some();
-        if !has_poses && self.fps.is_some() {
+        if !has_poses && self.fps.is_some() && !output.is_some_and(is_video) {
             return Some(
-                "--fps is for a --path with times in seconds; leave it out: pictures have no frame rate; ffmpeg is told it when it \
-                 makes the video (docs/video.md)"
+                "--fps is for a video, or for a --path with times in seconds; leave it out: pictures have no frame rate; name the \
+                 output .mp4, .mov, .mkv or .webm for a video"
                     .to_owned(),
             );
         }

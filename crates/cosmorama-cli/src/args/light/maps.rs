@@ -6,7 +6,7 @@ use cosmorama_spec::{DepthName, Missing, Size, Spec, TransferName};
 
 use super::lobe::LobeName;
 use super::roughness::RoughnessMapName;
-use crate::args::convert::{FilesArgs, RunArgs, TurnArgs, existing};
+use crate::args::convert::{FilesArgs, FramesAsked, RunArgs, TurnArgs, existing};
 use crate::args::with_examples;
 use crate::parse::listed::{self, Listed};
 use crate::parse::number::every;
@@ -168,6 +168,7 @@ pub(crate) struct MapArgs {
 
 impl From<MapArgs> for Conversion {
     fn from(args: MapArgs) -> Self {
+        let (frames, times) = FramesAsked::parted(args.files.frames);
         Self {
             input: args.input,
             output: args.output,
@@ -181,7 +182,8 @@ impl From<MapArgs> for Conversion {
             transfer: args.transfer,
             depth: args.depth.map(Depth::from),
             missing: args.missing,
-            frames: args.files.frames,
+            frames,
+            times,
             existing: existing(args.files.overwrite, args.files.resume),
             make_folders: !args.files.no_mkdir,
             limits: args.run.limits.into(),

@@ -22,7 +22,7 @@ use crate::pipe::KeptStreams;
 
 /// Tells what a conversion will do.
 pub(super) fn run(mut args: ExplainArgs, console: &mut Console) -> Result<ExitCode> {
-    if let Some(idle) = args.camera.idle(&args.geometry).or_else(|| args.shutter.idle()) {
+    if let Some(idle) = args.camera.idle(&args.geometry, None).or_else(|| args.shutter.idle()) {
         return Err(usage(idle));
     }
     let mut kept = KeptStreams::default();

@@ -104,7 +104,7 @@ fn formats() -> String {
             depths => format!("  {extensions:<12} {name}: --depth {}\n", depths.join(", ")),
         };
     }
-    text + "\nVideo goes by way of frames and ffmpeg (docs/video.md).\n"
+    text + "\nVideos: mp4, m4v, mov, mkv, webm, through the installed ffmpeg; streams of pictures: y4m, pam, pfm (docs/video.md).\n"
 }
 
 #[cfg(test)]

@@ -17,7 +17,7 @@ pub(super) fn of_files(inputs: &dyn Files, set: &FaceSet) -> Result<Option<Value
     let mut pictures = Vec::new();
     for (index, file) in set.faces().iter().enumerate().filter(|(_, file)| file.present) {
         let files = ViewFiles::new(&file.path);
-        let Some(picture) = light_of(inputs, &files.path(existing_frames(&files)?.first().copied())) else {
+        let Some(picture) = light_of(inputs, &files.path(existing_frames(&files, inputs)?.first().copied())) else {
             return Ok(None);
         };
         pictures.push((index, picture));

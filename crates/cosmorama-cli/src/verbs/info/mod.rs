@@ -3,6 +3,7 @@
 mod carried;
 mod faces;
 mod layers;
+mod video;
 mod world;
 
 use std::path::{Path, PathBuf};
@@ -12,7 +13,8 @@ use anyhow::Result;
 use cosmorama::circle::{Circle, Found};
 use cosmorama::raster::Transfer;
 use cosmorama_convert::{
-    Builtin, Files, ThinAlpha, ViewFiles, damage_of, existing_frames, face_set, is_one_file, light_of, likely,
+    Builtin, Files, ThinAlpha, ViewFiles, damage_of, existing_frames, face_set, is_one_file, light_of, likely, probe,
+    with_videos,
 };
 use cosmorama_io::{Choice, EnvMap, FacePattern, Header, ProfileFault, probe_chosen};
 use serde_json::{Value, json};
@@ -27,7 +29,7 @@ use crate::pipe::KeptStreams;
 pub(super) fn run(args: &InfoArgs, console: &mut Console) -> Result<ExitCode> {
     let mut kept = KeptStreams::default();
     let input = &kept.input(&args.input)?;
-    let files = &*kept.files();
+    let files = &*with_videos(kept.files());
     let report = if let Some(builtin) = Builtin::named(input)? {
         json!({ "input": input, "projection": "any (a formula)", "shows": builtin.about() })
     } else if FacePattern::parse(input).is_some() {
@@ -61,10 +63,15 @@ fn is_damaged(report: &Value) -> bool {
 
 fn single(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value> {
     let files = ViewFiles::new(Path::new(pattern));
-    let frames = existing_frames(&files)?;
+    if let Some(video) = files.video() {
+        is_one_file(inputs, pattern, video)?;
+    }
+    let frames = existing_frames(&files, inputs)?;
     let path = files.path(frames.first().copied());
-    is_one_file(inputs, pattern, &path)?;
-    let header = probe_any(inputs, &path)?;
+    if files.video().is_none() {
+        is_one_file(inputs, pattern, &path)?;
+    }
+    let header = probe_any(inputs, &files, frames.first().copied())?;
     if header.metadata.layers.no_picture.is_some() {
         let mut report = json!({ "input": pattern });
         if check || frames.is_empty() {
@@ -88,6 +95,7 @@ fn single(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value> {
     add_frames(&mut report, &frames, check);
     merge(&mut report, header_report(&header));
     report["projection"] = json!(likely.projection);
+    video::add(&mut report, inputs, &files)?;
     let picture = if reads_all && header.channels.has_alpha() { light_of(inputs, &path) } else { None };
     if let Some(told) = picture.and_then(|light| ThinAlpha::of(light.pixels().iter().copied())?.told()) {
         report["alpha"] = json!(told);
@@ -105,7 +113,7 @@ fn single(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value> {
 fn faces_report(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value> {
     let set = face_set(pattern, None)?;
     let mut report = json!({ "input": pattern, "projection": "cube", "naming": set.naming().name });
-    let is_sequence = set.present().any(|file| matches!(ViewFiles::new(&file.path), ViewFiles::Sequence(_)));
+    let is_sequence = set.present().any(|file| !matches!(ViewFiles::new(&file.path), ViewFiles::One(_)));
     let reads_all = check || !is_sequence;
     let arrangement = if reads_all { of_files(inputs, &set)? } else { None };
     // Pictures that were compared are known to be whole, except in later frames.
@@ -114,7 +122,7 @@ fn faces_report(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value>
     for file in set.faces() {
         let mut face = json!({ "file": file.path.display().to_string(), "present": file.present });
         let files = ViewFiles::new(&file.path);
-        let frames = if file.present { existing_frames(&files)? } else { Vec::new() };
+        let frames = if file.present { existing_frames(&files, inputs)? } else { Vec::new() };
         if file.present && seeks_damage {
             add_damage(&mut face, damages(inputs, &files, &frames));
         }
@@ -127,7 +135,7 @@ fn faces_report(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value>
         }
         if file.present {
             add_frames(&mut face, &frames, check);
-            merge(&mut face, header_report(&probe_any(inputs, &files.path(frames.first().copied()))?));
+            merge(&mut face, header_report(&probe_any(inputs, &files, frames.first().copied())?));
         }
         faces.insert(file.face.name().to_owned(), face);
     }
@@ -155,8 +163,12 @@ pub(super) fn add_damage(report: &mut Value, damaged: Vec<String>) {
     }
 }
 
-/// Reads a file's header, even if its channels form no picture.
-fn probe_any(inputs: &dyn Files, path: &Path) -> Result<Header> {
+/// Reads the header of a frame, even if its channels form no picture.
+fn probe_any(inputs: &dyn Files, files: &ViewFiles, frame: Option<u64>) -> Result<Header> {
+    let path = &files.path(frame);
+    if files.video().is_some() {
+        return Ok(probe(inputs, path)?);
+    }
     let choice = Choice { without_picture: true, ..Choice::default() };
     Ok(probe_chosen(inputs.open(path)?, path, &choice)?)
 }

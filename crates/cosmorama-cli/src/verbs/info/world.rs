@@ -40,7 +40,7 @@ fn views(listed: &Listed, sphere: &[Direction], reading: Option<&dyn Files>) -> 
     let view = |view: &InputView| {
         let mut report = of_view(listed, view, sphere);
         if let (Some(files), Some(_)) = (reading, &view.header) {
-            add_damage(&mut report, damages(files, &view.files, &existing_frames(&view.files)?));
+            add_damage(&mut report, damages(files, &view.files, &existing_frames(&view.files, files)?));
         }
         Ok(report)
     };

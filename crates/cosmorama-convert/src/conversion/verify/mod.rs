@@ -111,7 +111,7 @@ impl Verification<'_> {
         if self.frames.is_some() {
             return Ok(wanted);
         }
-        match existing_frames(&ViewFiles::Sequence(pattern.clone()))?[..] {
+        match existing_frames(&ViewFiles::Sequence(pattern.clone()), files)?[..] {
             [first, .., last] if last - first >= MOST => Err(usage(format!(
                 "{text}: the first frame is {first} and the last {last}, too far apart for one sequence; move what does not belong \
                  to it, or choose frames, as in {FRAMES} {first}-{}",
@@ -145,7 +145,7 @@ fn sequence(pattern: &str) -> Result<FramePattern> {
     }
     match ViewFiles::new(Path::new(pattern)) {
         ViewFiles::Sequence(pattern) => Ok(pattern),
-        ViewFiles::One(_) => Err(usage(format!(
+        ViewFiles::One(_) | ViewFiles::Video(_) => Err(usage(format!(
             "{pattern} has no frame marker such as #### or %04d; write one where the frame number stands"
         ))),
     }

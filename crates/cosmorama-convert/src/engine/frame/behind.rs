@@ -5,13 +5,12 @@ use std::sync::{Mutex, MutexGuard};
 use cosmorama::camera::View;
 use cosmorama::raster::{Image, Rgba};
 use cosmorama::render::{Progress, Stopped};
-use cosmorama_io::WriteOptions;
 use rayon::prelude::*;
 
 use super::pictures::lock;
 use crate::diagnostic::{Diagnostic, Result};
 use crate::engine::warnings::Tally;
-use crate::engine::{Engine, FrameFile, FrameLight, Stages, ViewImage, Which};
+use crate::engine::{Engine, FrameFile, FrameLight, Stages, ViewImage, Which, WriterOptions};
 use crate::job::ConvertJob;
 
 /// The world behind the input, with its light in the frame that is made.
@@ -32,7 +31,7 @@ impl<'a> Behind<'a> {
     /// Prepares the backdrop of a job, if it has one.
     pub(super) fn new(job: &'a ConvertJob, progress: &dyn Progress) -> Result<Option<Box<Self>>, Stopped> {
         let Some(backdrop) = &job.backdrop else { return Ok(None) };
-        let engine = Engine::new(backdrop, WriteOptions::default(), progress)?;
+        let engine = Engine::new(backdrop, WriterOptions::default(), progress)?;
         let held = Mutex::new(Held { light: engine.frame_light(), frame: None });
         Ok(Some(Box::new(Self { engine, held, tally: Mutex::default() })))
     }

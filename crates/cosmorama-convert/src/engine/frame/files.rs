@@ -9,7 +9,7 @@ use crate::colour::FileColours;
 use crate::diagnostic::{FRAMES, InPlace, Result, bail, failure};
 use crate::job::{ConvertJob, FrameOutputs};
 use crate::packing::Place;
-use crate::source::{ViewFiles, probe, read_in};
+use crate::source::{probe, read_in};
 
 /// Image of a view in one frame, as in its file.
 pub(crate) struct ViewImage {
@@ -49,7 +49,7 @@ impl FrameFile {
     pub(crate) fn all(job: &ConvertJob, frame: Option<u64>, which: Which) -> Vec<Self> {
         let mut files: Vec<Self> = Vec::new();
         for (view, (input, ..)) in job.input.present().enumerate() {
-            let is_moving = matches!(input.files, ViewFiles::Sequence(_));
+            let is_moving = input.files.has_frames();
             if which != Which::All && is_moving != (which == Which::Moving) {
                 continue;
             }

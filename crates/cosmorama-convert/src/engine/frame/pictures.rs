@@ -15,7 +15,8 @@ use crate::engine::frame::behind::Behind;
 use crate::engine::geometry::{arithmetic, codec};
 use crate::engine::unfiltered::formula;
 use crate::engine::{
-    BalancedLight, FrameLight, LayerPass, Levels, LightMaps, LightReport, Posed, Shares, Texels, Writer, warnings,
+    BalancedLight, FrameLight, LayerPass, Levels, LightMaps, LightReport, Posed, Shares, Texels, Writer, WriterOptions,
+    warnings,
 };
 use crate::input::InputView;
 use crate::job::coverage::Coverage;
@@ -62,7 +63,7 @@ pub(super) struct Layer {
 
 impl<'a> Engine<'a> {
     /// Prepares the geometry, on the threads that will render the frames.
-    pub(crate) fn new(job: &'a ConvertJob, options: WriteOptions, progress: &dyn Progress) -> Result<Self, Stopped> {
+    pub(crate) fn new(job: &'a ConvertJob, options: WriterOptions, progress: &dyn Progress) -> Result<Self, Stopped> {
         let behind = Behind::new(job, progress)?;
         let (posed, told, geometry) = if job.movement.is_some() {
             (None, Vec::new(), bytes_while_moving(job))
@@ -79,7 +80,8 @@ impl<'a> Engine<'a> {
             queue_depth.written = 1;
         }
         let pool = Arc::new(FramePool::keeping(pool_bytes(job, queue_depth)));
-        let writer = Writer::new(&job.light, &job.layers.picture, WriteOptions { pool: Arc::clone(&pool), ..options });
+        let files = WriteOptions { pool: Arc::clone(&pool), ..options.files };
+        let writer = Writer::new(&job.light, &job.layers.picture, WriterOptions { files, ..options });
         let (codec, posed, told) = (codec(job), Mutex::new(posed), Mutex::new(told));
         let edges = job.worlds.iter().map(|_| OnceLock::new()).collect();
         Ok(Self { job, codec, behind, posed, told, writer, queue_depth, pool, edges, lit: Mutex::default() })
@@ -222,7 +224,7 @@ impl<'a> Engine<'a> {
             Diagnostic::warning(Code::AlphaFlattened, message).about(path.display())
         };
         // What a still file lacks, it lacks in all frames.
-        let is_new = |(view, _): &(&InputView, usize)| is_first || view.files.sequence().is_some();
+        let is_new = |(view, _): &(&InputView, usize)| is_first || view.files.has_frames();
         self.incomplete(light)
             .filter(is_new)
             .map(tell)

@@ -10,14 +10,15 @@ use cosmorama_io::{WriteOptions, write_planes};
 
 use crate::diagnostic::Result;
 use crate::engine::unfiltered::OutputFile;
-use crate::engine::{Levels, Stage, Writer};
+use crate::engine::{FrameWords, Levels, Stage, Writer, WriterOptions};
 
 /// Makes a picture of a world by formula.
-pub(crate) fn picture(output: &OutputFile, world: BuiltinWorld, options: &WriteOptions) -> Result<()> {
-    let OutputFile { job, stages, path, .. } = *output;
+pub(crate) fn picture(output: &OutputFile, world: BuiltinWorld, options: &WriterOptions) -> Result<()> {
+    let OutputFile { job, place, stages, path, .. } = *output;
     let levels = stages.alone(Stage::Filter, || levels(output, world))?;
     stages.alone(Stage::Encode, || {
-        Writer::new(&job.light, &job.layers.picture, options.clone()).save(levels, path, Threads::All)
+        let words = FrameWords { place, ..FrameWords::default() };
+        Writer::new(&job.light, &job.layers.picture, options.clone()).save(words, levels, path, Threads::All)
     })
 }
 

@@ -43,7 +43,7 @@ impl Input {
         let files: Vec<ViewFiles> = chosen.iter().map(|face| ViewFiles::new(&face.path)).collect();
         let present = chosen.iter().zip(&files).filter(|(face, _)| face.present);
         let present: Vec<_> = present.map(|(face, files)| (face.face.name(), files)).collect();
-        let frames = wanted_frames::find_of_faces(pattern, &present, wanted)?;
+        let frames = wanted_frames::find_of_faces(pattern, &present, access.files, wanted)?;
         let mut faces = Vec::new();
         for (face, files) in chosen.into_iter().zip(files) {
             faces.push(Face::probe(cube, face, files, (eye, access), frames[0])?);

@@ -178,7 +178,7 @@ fn other_side(shape: Option<&Shape>, side: Side) -> Result<Placement> {
 /// Returns the size of the input's first picture.
 fn input_size(input: &str, access: Access) -> Result<(usize, usize)> {
     let files = ViewFiles::new(Path::new(input));
-    let first = wanted_frames::find(&files, None)?[0];
+    let first = wanted_frames::find(&files, access.files, None)?[0];
     Ok(canvas_size(&access.probe(&files.path(first))?))
 }
 

@@ -1,0 +1,257 @@
+//! Videos in the place of frames: the same pictures, all of them, and one output that is whole or not there.
+
+use std::process::Stdio;
+use std::time::{Duration, Instant};
+
+use super::films::{ffmpeg, film, has_ffmpeg, said, taken_apart};
+use crate::bench::{Bench, assert_says, eight_bits, text};
+
+/// A conversion that is quick, and differs from frame to frame.
+const DOME: [&str; 6] = ["--from", "equirect", "--to", "fulldome", "--size", "16"];
+
+fn convert(bench: &Bench, files: [&str; 2], more: &[&str]) -> String {
+    bench.succeed(&[&["convert"], &files[..], &DOME, more].concat())
+}
+
+fn refused(bench: &Bench, code: i32, files: [&str; 2], more: &[&str]) -> String {
+    bench.fail(code, &[&["convert"], &files[..], &DOME, more].concat())
+}
+
+/// Asserts that two folders of frames have the same pixels.
+fn assert_same(bench: &Bench, one: &str, other: &str, frames: std::ops::Range<usize>) {
+    for frame in frames {
+        let [one, other] = [one, other].map(|folder| bench.load(&format!("{folder}/{frame:04}.png")));
+        assert!(eight_bits(&one) == eight_bits(&other), "frame {frame}");
+    }
+}
+
+#[test]
+fn a_video_becomes_the_video_of_its_frames() {
+    if !has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    film(&bench, "film.mkv", 50);
+    assert_eq!(taken_apart(&bench, "film.mkv", "frames"), 50);
+    convert(&bench, ["frames/####.png", "domes/####.png"], &[]);
+    convert(&bench, ["film.mkv", "dome.mkv"], &[]);
+    assert_eq!(taken_apart(&bench, "dome.mkv", "made"), 50);
+    assert_same(&bench, "domes", "made", 0..50);
+    assert_says(&said(&bench, "dome.mkv", "v", "stream=codec_name,r_frame_rate"), &["ffv1", "25/1"]);
+    // Video to frames, and frames to video.
+    convert(&bench, ["film.mkv", "out/####.png"], &[]);
+    assert_same(&bench, "domes", "out", 0..50);
+    convert(&bench, ["frames/####.png", "again.mkv"], &["--fps", "24000/1001"]);
+    assert_eq!(taken_apart(&bench, "again.mkv", "remade"), 50);
+    assert_same(&bench, "domes", "remade", 0..50);
+    assert_says(&said(&bench, "again.mkv", "v", "stream=r_frame_rate"), &["24000/1001"]);
+}
+
+#[test]
+fn the_number_of_threads_changes_nothing() {
+    if !has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    film(&bench, "film.mkv", 12);
+    for threads in ["1", "2", "7"] {
+        convert(&bench, ["film.mkv", &format!("dome{threads}.mkv")], &["--threads", threads]);
+        taken_apart(&bench, &format!("dome{threads}.mkv"), threads);
+        assert_same(&bench, "1", threads, 0..12);
+    }
+}
+
+#[test]
+fn frames_are_chosen_exactly() {
+    if !has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    film(&bench, "film.mkv", 40);
+    convert(&bench, ["film.mkv", "all/####.png"], &[]);
+    convert(&bench, ["film.mkv", "some/####.png"], &["--frames", "7-20:2,3,39"]);
+    let made = bench.files().into_iter().filter(|path| path.starts_with(bench.path("some"))).count();
+    assert_eq!(made, 9);
+    for frame in [7, 9, 11, 13, 15, 17, 19, 3, 39] {
+        assert_same(&bench, "all", "some", frame..frame + 1);
+    }
+    // At 25 frames a second these are 10 to 14.
+    convert(&bench, ["film.mkv", "timed/####.png"], &["--frames", "00:00:00.4-00:00:00.6"]);
+    let made = bench.files().into_iter().filter(|path| path.starts_with(bench.path("timed"))).count();
+    assert_eq!(made, 5);
+    assert_same(&bench, "all", "timed", 10..15);
+    convert(&bench, ["film.mkv", "one.png"], &["--frames", "23"]);
+    assert!(eight_bits(&bench.load("one.png")) == eight_bits(&bench.load("all/0023.png")));
+    assert_says(
+        &refused(&bench, 1, ["film.mkv", "none/####.png"], &["--frames", "38-41"]),
+        &["film.mkv", "40,41", "last 39"],
+    );
+    assert_says(
+        &refused(&bench, 1, ["film.mkv", "none/####.png"], &["--frames", "00:01:00-00:02:00"]),
+        &["film.mkv", "no frame then", "40"],
+    );
+    assert_says(
+        &refused(&bench, 2, ["all/####.png", "none/####.png"], &["--frames", "00:00:00"]),
+        &["--frames 00:00:00", "is no video"],
+    );
+    assert_says(&refused(&bench, 2, ["film.mkv", "none.png"], &[]), &["40 frames cannot go into the one file"]);
+}
+
+#[test]
+fn a_cut_video_fails_and_names_the_frame() {
+    if !has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    film(&bench, "film.mkv", 50);
+    let bytes = bench.bytes("film.mkv");
+    std::fs::write(bench.path("cut.mkv"), &bytes[..bytes.len() * 27 / 100]).unwrap();
+    for output in ["dome.mkv", "dome_####.png"] {
+        let message = bench.run(&[&["convert", "cut.mkv", output], &DOME[..]].concat());
+        assert_eq!(message.status.code(), Some(1), "{}", text(&message.stderr));
+        assert_says(&text(&message.stderr), &["cut.mkv"]);
+        assert!(!bench.path("dome.mkv").exists());
+    }
+    // What there is can be had.
+    let said = bench.run(&[&["convert", "cut.mkv", "held.mkv", "--damaged", "skip"], &DOME[..]].concat());
+    assert_eq!(said.status.code(), Some(0), "{}", text(&said.stderr));
+    assert_says(&text(&said.stderr), &["warning: cut.mkv", "left out"]);
+    let left = taken_apart(&bench, "held.mkv", "held");
+    assert!((10..20).contains(&left), "{left} frames");
+}
+
+#[test]
+fn sound_goes_along_and_is_cut_with_the_frames() {
+    if !has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    let pictures = ["-f", "lavfi", "-i", "testsrc2=size=64x32:rate=25:duration=2"];
+    let sound = ["-f", "lavfi", "-i", "sine=duration=2", "-c:v", "mpeg4", "-q:v", "1", "-c:a", "flac", "film.mkv"];
+    ffmpeg(&bench, &[&pictures[..], &sound].concat());
+    convert(&bench, ["film.mkv", "dome.mkv"], &[]);
+    assert_says(&said(&bench, "dome.mkv", "a", "stream=codec_name"), &["flac"]);
+    convert(&bench, ["film.mkv", "part.mkv"], &["--frames", "25-49"]);
+    assert_says(&said(&bench, "part.mkv", "v", "stream=nb_read_frames"), &["=25\n"]);
+    assert_says(&said(&bench, "part.mkv", "a", "stream=codec_name"), &["flac"]);
+    // Frames that do not follow each other have no sound.
+    let output = bench.run(&[&["convert", "film.mkv", "thin.mkv", "--frames", "0-48:2"], &DOME[..]].concat());
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert_says(&text(&output.stderr), &["warning: film.mkv", "sound", "--frames"]);
+    assert_eq!(said(&bench, "thin.mkv", "a", "stream=codec_name"), "");
+}
+
+#[test]
+fn spherical_tags_are_written_read_and_told() {
+    if !has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    for (to, size, told) in [
+        ("equirect", "64x32", "equirect (spherical tags)"),
+        ("equirect:stereo=tb", "64x64", "equirect:stereo=tb (spherical tags)"),
+        ("equirect:hfov=180,stereo=sbs", "64x32", "equirect:hfov=180,stereo=sbs (spherical tags)"),
+    ] {
+        let made = [
+            "convert",
+            "builtin:demo",
+            "sky.mp4",
+            "--to",
+            to,
+            "--size",
+            size,
+            "-y",
+            "--yaw",
+            "0..90",
+            "--frames",
+            "0-2",
+        ];
+        bench.succeed(&made);
+        assert_says(
+            &bench.succeed(&["info", "sky.mp4"]),
+            &[&format!("projection: {told}"), "frames: 0-2", "codec: h264", "spherical: "],
+        );
+        // No --from is needed.
+        bench.succeed(&["convert", "sky.mp4", "view_#.png", "--to", "perspective:fov=60", "--size", "16", "-y"]);
+    }
+    bench.succeed(&["convert", "builtin:demo", "dome.mp4", "--to", "fulldome", "--size", "32"]);
+    assert!(!bench.succeed(&["info", "dome.mp4"]).contains("spherical"));
+}
+
+#[test]
+fn settings_of_videos_are_checked_before_work() {
+    if !has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    film(&bench, "film.mkv", 3);
+    assert_says(
+        &refused(&bench, 2, ["film.mkv", "a.mkv"], &["--video-codec", "divx"]),
+        &["--video-codec divx", "ffv1"],
+    );
+    assert_says(
+        &refused(&bench, 2, ["film.mkv", "a_#.png"], &["--video-codec", "h264"]),
+        &["--video-codec", "a_#.png is none"],
+    );
+    assert_says(&refused(&bench, 2, ["film.mkv", "a_#.png"], &["--fps", "24"]), &["--fps", "name the output .mp4"]);
+    assert_says(&refused(&bench, 2, ["film.mkv", "a.mkv"], &["--resume"]), &["--resume", "whole or not at all"]);
+    assert_says(&refused(&bench, 2, ["film.mkv", "a.avi"], &[]), &["a.avi", ".mkv"]);
+    assert_says(&refused(&bench, 2, ["film.mkv", "film.mkv"], &["-y"]), &["would replace its own input"]);
+    std::fs::write(bench.path("a.mkv"), "kept").unwrap();
+    assert_says(&refused(&bench, 1, ["film.mkv", "a.mkv"], &[]), &["a.mkv exists; replace it with -y"]);
+    assert_eq!(bench.bytes("a.mkv"), b"kept");
+    assert_says(&refused(&bench, 1, ["none.mkv", "b.mkv"], &[]), &["none.mkv"]);
+    convert(&bench, ["film.mkv", "a.mkv"], &["-y", "--video-args", "-metadata 'title=A dome'"]);
+    assert_says(&said(&bench, "a.mkv", "v", "format_tags=title"), &["A dome"]);
+}
+
+#[test]
+fn without_ffmpeg_the_message_says_how_to_get_it() {
+    let bench = Bench::new();
+    std::fs::write(bench.path("film.mkv"), "no matter").unwrap();
+    let args = [&["convert", "film.mkv", "dome_#.png"], &DOME[..]].concat();
+    let output = bench.command(&args).env("PATH", bench.path("")).output().unwrap();
+    let files = bench.files();
+    assert_says(&bench.check_failure(1, &output, &files), &["ffmpeg", "install"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_killed_run_leaves_no_video_and_no_ffmpeg() {
+    if !has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    let source = "testsrc2=size=512x256:rate=25,format=gbrp,trim=end_frame=200";
+    ffmpeg(&bench, &["-f", "lavfi", "-i", source, "-c:v", "ffv1", "film.mkv"]);
+    for signal in ["TERM", "KILL"] {
+        let args = ["convert", "film.mkv", "dome.mkv", "--from", "equirect", "--to", "fulldome", "--size", "512"];
+        let mut child = bench.command(&args).stderr(Stdio::null()).spawn().unwrap();
+        let folder = bench.path("").canonicalize().unwrap();
+        let begun = Instant::now();
+        while ffmpegs_in(&folder).len() < 2 {
+            assert!(begun.elapsed() < Duration::from_secs(60), "none was begun");
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        std::process::Command::new("kill").args([&format!("-{signal}"), &child.id().to_string()]).status().unwrap();
+        let code = child.wait().unwrap().code();
+        assert_eq!(code, if signal == "TERM" { Some(143) } else { None });
+        assert!(!bench.path("dome.mkv").exists(), "{signal}");
+        let begun = Instant::now();
+        while !ffmpegs_in(&folder).is_empty() {
+            assert!(begun.elapsed() < Duration::from_secs(20), "{signal}: an ffmpeg goes on");
+            std::thread::sleep(Duration::from_millis(20));
+        }
+    }
+}
+
+/// Returns the processes called ffmpeg that work in a folder.
+#[cfg(target_os = "linux")]
+fn ffmpegs_in(folder: &std::path::Path) -> Vec<std::path::PathBuf> {
+    let processes = std::fs::read_dir("/proc").unwrap().filter_map(|entry| Some(entry.ok()?.path()));
+    let is_one = |process: &std::path::PathBuf| {
+        let name = std::fs::read_to_string(process.join("comm")).unwrap_or_default();
+        name.trim() == "ffmpeg" && std::fs::read_link(process.join("cwd")).is_ok_and(|place| place == folder)
+    };
+    processes.filter(is_one).collect()
+}

@@ -1,0 +1,45 @@
+//! Videos that a conversion makes: what is known of them before their first frame.
+
+use std::path::PathBuf;
+
+use crate::diagnostic::{Diagnostic, Result};
+use crate::job::ConvertJob;
+use crate::settings::Conversion;
+use crate::target::TargetFile;
+use crate::video::{MadeVideos, VideoPlan, VideoSource};
+
+/// Checks the settings of the videos that are made, if there are any.
+pub(super) fn check(settings: &Conversion, job: &ConvertJob) -> Result<()> {
+    let outputs: Vec<PathBuf> = outputs(job).into_iter().map(|(path, _)| path).collect();
+    if outputs.is_empty() { Ok(()) } else { MadeVideos::check(&outputs, &plan(settings, job)) }
+}
+
+/// Starts the encoders of the videos that are made.
+pub(super) fn start(settings: &Conversion, job: &ConvertJob, told: &mut Vec<Diagnostic>) -> Result<MadeVideos> {
+    let (plan, videos) = (plan(settings, job), job.files.videos());
+    MadeVideos::start(&outputs(job), (&plan, videos), &settings.unfinished, told)
+}
+
+/// Returns the videos to make, with their sizes.
+fn outputs(job: &ConvertJob) -> Vec<(PathBuf, (usize, usize))> {
+    if job.outputs.frames.is_empty() {
+        return Vec::new();
+    }
+    let output = |file: &TargetFile| Some((file.files.video()?.to_owned(), file.sheet.size));
+    job.target.files.iter().filter_map(output).collect()
+}
+
+fn plan(settings: &Conversion, job: &ConvertJob) -> VideoPlan {
+    let frames: Vec<u64> = job.outputs.frames.iter().filter_map(|frame| frame.frame).collect();
+    let video = job.input.present().find_map(|(view, ..)| view.files.video());
+    VideoPlan {
+        settings: settings.video.clone(),
+        to: settings.geometry.to.clone(),
+        depth: job.light.depth,
+        channels: job.light.channels,
+        transfer: job.light.transfer.clone(),
+        primaries: job.light.working.primaries,
+        frames: job.outputs.frames.len() as u64,
+        source: video.map(|video| VideoSource { video: video.to_owned(), frames }),
+    }
+}

@@ -1,0 +1,101 @@
+//! Stands in for videos in programs built without them: no file is taken for a video, so that none of this is ever called.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use cosmorama::raster::{EncodedImage, FramePool};
+use cosmorama_io::pending::Unfinished;
+use cosmorama_io::{Header, ImageFile, IoError, Limits};
+use cosmorama_spec::{FrameRate, Spec};
+
+use super::{DamagedFrames, FrameName, RawFiles, VideoPlan};
+use crate::diagnostic::{Diagnostic, Result};
+
+/// Videos among the inputs: none.
+#[derive(Debug)]
+pub struct Videos;
+
+/// Videos that are made: none.
+#[derive(Debug, Default)]
+pub(crate) struct MadeVideos;
+
+fn refusal(video: &Path) -> IoError {
+    IoError::UnknownContent { path: video.to_owned() }
+}
+
+impl Videos {
+    pub(crate) fn new(_: DamagedFrames, _: Arc<dyn RawFiles>) -> Self {
+        Self
+    }
+
+    pub(crate) fn header(&self, name: &FrameName) -> Result<Header, IoError> {
+        Err(refusal(&name.video))
+    }
+
+    pub(crate) fn picture(&self, name: &FrameName, _: &Limits) -> Result<ImageFile, IoError> {
+        Err(refusal(&name.video))
+    }
+
+    pub(crate) fn count(&self, video: &Path) -> Result<u64, IoError> {
+        Err(refusal(video))
+    }
+
+    pub(crate) fn rate(&self, video: &Path) -> Result<Option<FrameRate>, IoError> {
+        Err(refusal(video))
+    }
+
+    /// Finds no projection.
+    ///
+    /// # Errors
+    /// Always.
+    pub fn spec(&self, video: &Path) -> Result<Option<Spec>, IoError> {
+        Err(refusal(video))
+    }
+
+    /// Finds no statements.
+    ///
+    /// # Errors
+    /// Always.
+    pub fn facts(&self, video: &Path) -> Result<Vec<(&'static str, String)>, IoError> {
+        Err(refusal(video))
+    }
+
+    pub(crate) fn expect(&self, video: &Path, _: impl Iterator<Item = u64>) -> Result<(), IoError> {
+        Err(refusal(video))
+    }
+
+    pub(crate) fn complaints(&self) -> Vec<String> {
+        Vec::new()
+    }
+}
+
+impl MadeVideos {
+    pub(crate) fn check(_: &[PathBuf], _: &VideoPlan) -> Result<()> {
+        Ok(())
+    }
+
+    pub(crate) fn start(
+        _: &[(PathBuf, (usize, usize))],
+        _: (&VideoPlan, Option<&Videos>),
+        _: &Unfinished,
+        _: &mut Vec<Diagnostic>,
+    ) -> Result<Self> {
+        Ok(Self)
+    }
+
+    pub(crate) fn holds(&self, _: &Path) -> bool {
+        false
+    }
+
+    pub(crate) fn put(&self, path: &Path, _: usize, _: EncodedImage, _: &FramePool) -> Result<(), IoError> {
+        Err(IoError::UnknownExtension { path: path.to_owned() })
+    }
+
+    pub(crate) fn leave_out(&self, _: usize, _: &FramePool) -> Result<(), IoError> {
+        Ok(())
+    }
+
+    pub(crate) fn finish(&self) -> Result<Vec<Diagnostic>, IoError> {
+        Ok(Vec::new())
+    }
+}

@@ -1,0 +1,252 @@
+//! Statements of a video about itself, in the words of pictures and SPECs.
+
+use cosmorama::camera::{CameraModel, Mirror};
+use cosmorama::layout::Arrangement;
+use cosmorama::raster::{Channels, Depth, Transfer};
+use cosmorama_io::{Format, Header, Metadata};
+use cosmorama_spec::{Shape, Spec};
+use cosmorama_video::{
+    Bounds, OtherStream, SpatialTags, SphericalPose, SphericalProjection, StereoMode, StreamKind, Turn, VideoInfo,
+};
+
+/// Returns the header that all frames of a video share.
+pub(super) fn header(info: &VideoInfo) -> Header {
+    let (width, height) = info.size();
+    let channels = if info.has_alpha { Channels::Rgba } else { Channels::Rgb };
+    Header {
+        format: Format::Video,
+        width,
+        height,
+        channels,
+        depth: depth(info.bits),
+        metadata: metadata(info),
+        window: None,
+    }
+}
+
+fn depth(bits: u32) -> Depth {
+    match bits {
+        0..=8 => Depth::Eight,
+        9..=10 => Depth::Ten,
+        11..=12 => Depth::Twelve,
+        _ => Depth::Sixteen,
+    }
+}
+
+/// Returns the metadata of a frame. YUV without a tag is shown as television is, and RGB as pictures are.
+pub(super) fn metadata(info: &VideoInfo) -> Metadata {
+    let untagged = if info.is_rgb { None } else { Some(Transfer::Bt1886) };
+    Metadata {
+        transfer: info.colour.known_transfer().or(untagged),
+        primaries: info.colour.known_primaries(),
+        complaints: info.spatial.as_ref().and_then(not_followed).into_iter().collect(),
+        notes: info.notes.clone(),
+        ..Metadata::default()
+    }
+}
+
+/// Returns what a video says of itself beside its pictures, each under a name, in the order of a report.
+pub(super) fn facts(info: &VideoInfo) -> Vec<(&'static str, String)> {
+    let varies = if info.is_variable { " on average; it varies" } else { "" };
+    let turned = info.turn != Turn::default();
+    let of_kind = |kind: StreamKind| -> Option<String> {
+        let found: Vec<String> = info.others.iter().filter(|other| other.kind == kind).map(told).collect();
+        (!found.is_empty()).then(|| found.join(", "))
+    };
+    let facts = [
+        ("container", Some(info.container.clone())),
+        ("codec", Some(info.codec.clone())),
+        ("pixel_format", Some(info.pixel_format.clone())),
+        ("frame_rate", Some(format!("{}{varies}", info.rate))),
+        ("seconds", info.duration.map(|seconds| format!("{seconds:.3}"))),
+        ("range", Some(info.range().name().to_owned())),
+        (
+            "turned",
+            turned.then(|| "as its rotation asks (width and height are those of the upright picture)".to_owned()),
+        ),
+        ("spherical", info.spatial.as_ref().map(spherical)),
+        ("sound", of_kind(StreamKind::Audio)),
+        ("subtitles", of_kind(StreamKind::Subtitle)),
+        ("chapters", (info.chapters > 0).then(|| info.chapters.to_string())),
+        ("timecode", info.timecode.clone()),
+    ];
+    facts.into_iter().filter_map(|(name, value)| Some((name, value?))).collect()
+}
+
+fn told(stream: &OtherStream) -> String {
+    let language = stream.language.as_ref().map_or_else(String::new, |language| format!(" ({language})"));
+    let channels = if stream.channels > 0 { format!(", {} channels", stream.channels) } else { String::new() };
+    format!("{}{channels}{language}", stream.codec)
+}
+
+/// Describes spherical tags in words.
+fn spherical(tags: &SpatialTags) -> String {
+    let projection = match tags.projection {
+        None => "flat".to_owned(),
+        Some(SphericalProjection::Mesh) => "mesh".to_owned(),
+        Some(SphericalProjection::Cubemap { layout, padding }) => {
+            format!("cubemap, layout {layout}, padding {padding}")
+        }
+        Some(SphericalProjection::Equirect(bounds)) if bounds == Bounds::default() => "equirectangular".to_owned(),
+        Some(SphericalProjection::Equirect(Bounds { top, bottom, left, right })) => {
+            let part = |cut: u32| format!("{:.2} %", f64::from(cut) / WHOLE * 100.0);
+            format!(
+                "equirectangular without {} above, {} below, {} left and {} right",
+                part(top),
+                part(bottom),
+                part(left),
+                part(right)
+            )
+        }
+    };
+    let stereo = match tags.stereo {
+        None => "",
+        Some(StereoMode::Mono) => ", for one eye",
+        Some(StereoMode::TopBottom) => ", the left eye above the right",
+        Some(StereoMode::LeftRight) => ", the left eye beside the right",
+    };
+    format!("{projection}{stereo}")
+}
+
+/// Returns the complaint about spherical tags that are not followed.
+fn not_followed(tags: &SpatialTags) -> Option<String> {
+    if tags.pose != SphericalPose::default() {
+        let degrees = |part: i32| f64::from(part) / 65536.0;
+        let SphericalPose { yaw, pitch, roll } = tags.pose;
+        return Some(format!(
+            "its spherical tags turn it by yaw {}, pitch {} and roll {} degrees, which is not followed; turn it with yaw=, pitch= and \
+             roll= in its SPEC",
+            degrees(yaw),
+            degrees(pitch),
+            degrees(roll)
+        ));
+    }
+    (tags.projection.is_some() && text_of(tags, (2, 1)).is_none()).then(|| {
+        "its spherical tags name a projection that is not read: a mesh, padded faces, or a part beside the middle"
+            .to_owned()
+    })
+}
+
+/// Returns the projection that the tags of a video name, if they do.
+pub(super) fn spec(info: &VideoInfo) -> Option<Spec> {
+    text_of(info.spatial.as_ref()?, info.size())?.parse().ok()
+}
+
+/// Whole circle in the units of bounds.
+const WHOLE: f64 = 4_294_967_296.0;
+
+/// Returns the SPEC of spherical tags for frames of this size.
+fn text_of(tags: &SpatialTags, size: (usize, usize)) -> Option<String> {
+    match tags.projection? {
+        SphericalProjection::Equirect(bounds) => {
+            let [horizontal, vertical] = middle_part(bounds)?;
+            let (hfov, vfov) = (360.0 * horizontal, 180.0 * vertical);
+            let mut keys = Vec::new();
+            if horizontal < 1.0 {
+                keys.push(format!("hfov={hfov}"));
+            }
+            if vertical < 1.0 {
+                keys.push(format!("vfov={vfov}"));
+            }
+            keys.extend(stereo_of(tags.stereo, size, hfov / vfov).map(|packing| format!("stereo={packing}")));
+            Some(if keys.is_empty() { "equirect".to_owned() } else { format!("equirect:{}", keys.join(",")) })
+        }
+        SphericalProjection::Cubemap { layout: 0, padding: 0 } => match stereo_of(tags.stereo, size, 1.5) {
+            Some(packing) => Some(format!("cube:layout=3x2,stereo={packing}")),
+            None => Some("cube:layout=3x2".to_owned()),
+        },
+        SphericalProjection::Cubemap { .. } | SphericalProjection::Mesh => None,
+    }
+}
+
+/// Returns the parts of the circle that bounds leave, if that is in the middle.
+fn middle_part(bounds: Bounds) -> Option<[f64; 2]> {
+    let Bounds { top, bottom, left, right } = bounds;
+    let left_over = |cut: u32| 1.0 - 2.0 * f64::from(cut) / WHOLE;
+    let is_middle = top == bottom && left == right && top < 1 << 31 && left < 1 << 31;
+    is_middle.then(|| [left_over(left), left_over(top)])
+}
+
+/// Returns the packing of two eyes, each of which is so many times as wide as high when it is not squeezed.
+fn stereo_of(mode: Option<StereoMode>, (width, height): (usize, usize), aspect: f64) -> Option<&'static str> {
+    let is = |aspect_of_one: f64| (aspect_of_one / aspect - 1.0).abs() < 0.01;
+    let (width, height) = (width as f64, height as f64);
+    match mode? {
+        StereoMode::Mono => None,
+        StereoMode::TopBottom if is(width / height) => Some("tb-half"),
+        StereoMode::TopBottom => Some("tb"),
+        StereoMode::LeftRight if is(width / height) => Some("sbs-half"),
+        StereoMode::LeftRight => Some("sbs"),
+    }
+}
+
+/// Returns the spherical tags of a video whose pictures have a projection; `None` where there are none for it.
+pub(super) fn tags(to: Option<&Spec>) -> Option<SpatialTags> {
+    let spec = to?;
+    let Shape::Single(single) = &spec.shape else { return None };
+    let CameraModel::Equirect(frame) = &single.placement.frame else { return None };
+    if single.placement.mirror != Mirror::default() || single.placement.canvas.is_some() {
+        return None;
+    }
+    let stereo = match spec.stereo.map(|stereo| (stereo.packing.is_swapped, stereo.packing.arrangement)) {
+        None => StereoMode::Mono,
+        Some((false, Arrangement::TopBottom)) => StereoMode::TopBottom,
+        Some((false, Arrangement::SideBySide)) => StereoMode::LeftRight,
+        Some((true, _)) => return None,
+    };
+    let cut = |part: f64| ((1.0 - part) / 2.0 * WHOLE).round() as u32;
+    let (left, top) = (cut(frame.horizontal.degrees() / 360.0), cut(frame.vertical.degrees() / 180.0));
+    let bounds = Bounds { top, bottom: top, left, right: left };
+    Some(SpatialTags {
+        stereo: Some(stereo),
+        projection: Some(SphericalProjection::Equirect(bounds)),
+        pose: SphericalPose::default(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tags_of(spec: &str) -> Option<SpatialTags> {
+        tags(Some(&spec.parse().unwrap()))
+    }
+
+    #[test]
+    fn tags_name_the_projection_that_they_were_made_of() {
+        for (spec, size) in [
+            ("equirect", (4096, 2048)),
+            ("equirect:stereo=tb", (2048, 2048)),
+            ("equirect:stereo=tb-half", (4096, 2048)),
+            ("equirect:stereo=sbs-half", (4096, 2048)),
+            ("equirect:hfov=180,stereo=sbs", (4096, 2048)),
+            ("equirect:hfov=180,vfov=90", (1000, 500)),
+        ] {
+            let text = text_of(&tags_of(spec).unwrap(), size).unwrap();
+            assert_eq!(text.parse::<Spec>().unwrap().to_string(), spec.parse::<Spec>().unwrap().to_string(), "{text}");
+        }
+        assert_eq!(tags_of("equirect:hfov=180,stereo=sbs"), Some(SpatialTags::vr180()));
+        assert_eq!(tags_of("equirect"), Some(SpatialTags::panorama(StereoMode::Mono)));
+    }
+
+    #[test]
+    fn nothing_is_said_of_pictures_that_players_would_show_wrongly() {
+        for spec in ["fulldome", "perspective:fov=90", "equirect:flip=x", "equirect:stereo=sbs,swap=yes", "mercator"] {
+            assert_eq!(tags_of(spec), None, "{spec}");
+        }
+        assert_eq!(tags(None), None);
+    }
+
+    #[test]
+    fn tags_that_are_not_followed_are_told() {
+        let panorama = SpatialTags::panorama(StereoMode::Mono);
+        assert_eq!(not_followed(&panorama), None);
+        let turned = SpatialTags { pose: SphericalPose { yaw: 90 * 65536, ..SphericalPose::default() }, ..panorama };
+        assert!(not_followed(&turned).unwrap().contains("yaw 90, pitch 0"));
+        let mesh = SpatialTags { projection: Some(SphericalProjection::Mesh), ..panorama };
+        assert!(not_followed(&mesh).unwrap().contains("not read"));
+        let aside = Bounds { left: 1 << 30, ..Bounds::default() };
+        let aside = SpatialTags { projection: Some(SphericalProjection::Equirect(aside)), ..panorama };
+        assert!(not_followed(&aside).is_some() && text_of(&aside, (3, 2)).is_none());
+    }
+}

@@ -1,0 +1,280 @@
+//! Videos that are made: pictures come in any order from many threads, and go to the encoder in the order of frames.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use cosmorama::raster::{EncodedImage, FramePool};
+use cosmorama_io::IoError;
+use cosmorama_io::pending::Unfinished;
+use cosmorama_spec::FrameRate;
+use cosmorama_video::{
+    Carried, Codec, ColourTags, Container, Ffmpeg, FrameTimes, Ratio, Timeline, VideoError, VideoInfo, VideoWriter,
+    WriteSettings,
+};
+
+use super::raw::RawWriter;
+use super::read::foreign;
+use super::{DamagedFrames, RawKind, VideoPlan, Videos, described};
+use crate::diagnostic::{Code, Diagnostic, FPS, FRAMES, Result, VIDEO_CODEC, usage, usage_as};
+
+/// Videos that a conversion makes.
+#[derive(Debug, Default)]
+pub(crate) struct MadeVideos {
+    all: Vec<(PathBuf, MadeVideo)>,
+}
+
+/// A video in progress.
+#[derive(Debug)]
+struct MadeVideo {
+    times: Vec<i64>,
+    state: Mutex<State>,
+}
+
+#[derive(Debug)]
+struct State {
+    writer: Option<Encoder>,
+    /// Number of frames that the encoder has.
+    given: usize,
+    /// Pictures that came before their turn.
+    early: BTreeMap<usize, EncodedImage>,
+    /// Places of frames that are left out.
+    left_out: BTreeSet<usize>,
+}
+
+/// Encoder of a video.
+#[derive(Debug)]
+enum Encoder {
+    Film(Box<VideoWriter>),
+    Raw(Box<RawWriter>),
+}
+
+/// Rate of a video when nothing else tells one.
+const USUAL: FrameRate = FrameRate { frames: 30, seconds: 1 };
+
+impl MadeVideos {
+    /// Checks the settings of videos before anything is read for them.
+    pub(crate) fn check(outputs: &[PathBuf], plan: &VideoPlan) -> Result<()> {
+        codec(plan)?;
+        for path in outputs.iter().filter(|path| RawKind::of(path).is_none()) {
+            if Container::of_path(path).is_none() {
+                let error = VideoError::UnknownContainer { path: path.clone() };
+                return Err(usage_as(Code::OutputFormat, error.to_string()));
+            }
+            Ffmpeg::find().map_err(foreign)?;
+        }
+        Ok(())
+    }
+
+    /// Starts the encoders of videos of these sizes.
+    pub(crate) fn start(
+        outputs: &[(PathBuf, (usize, usize))],
+        (plan, videos): (&VideoPlan, Option<&Videos>),
+        unfinished: &Unfinished,
+        told: &mut Vec<Diagnostic>,
+    ) -> Result<Self> {
+        if outputs.is_empty() {
+            return Ok(Self::default());
+        }
+        let (mut info, mut rate) = (None, plan.settings.rate);
+        if let (Some(shown), Some(videos)) = (&plan.source, videos) {
+            info = videos.info(&shown.video)?;
+            rate = rate.or(videos.rate(&shown.video)?);
+        }
+        let source = info.as_ref().zip(plan.source.as_ref().map(|source| &source.frames[..]));
+        let (times, stamps) = times((rate, plan), source, told)?;
+        let mut all = Vec::new();
+        for (path, size) in outputs {
+            let state =
+                |writer| State { writer: Some(writer), given: 0, early: BTreeMap::new(), left_out: BTreeSet::new() };
+            if let Some(kind) = RawKind::of(path) {
+                let writer = RawWriter::create(kind, path, (*size, plan.depth, rate_of(times)), unfinished)?;
+                let video = MadeVideo { times: Vec::new(), state: Mutex::new(state(Encoder::Raw(Box::new(writer)))) };
+                all.push((path.clone(), video));
+                continue;
+            }
+            let ffmpeg = Ffmpeg::find().map_err(foreign)?;
+            let settings = WriteSettings {
+                times,
+                depth: plan.depth,
+                has_alpha: plan.channels.has_alpha(),
+                colour: ColourTags::of(&plan.primaries, &plan.transfer),
+                hdr: source.map(|(info, _)| info.hdr).unwrap_or_default(),
+                spatial: described::tags(plan.to.as_ref()),
+                codec: codec(plan)?,
+                arguments: plan.settings.arguments.clone(),
+                source: carried(source, times, told),
+                frames: (plan.settings.damaged != DamagedFrames::Skip).then_some(plan.frames),
+                ..WriteSettings::new(*size, Ratio::ONE)
+            };
+            let writer = VideoWriter::create(&ffmpeg, path, settings, unfinished).map_err(foreign)?;
+            let video = MadeVideo { times: stamps.clone(), state: Mutex::new(state(Encoder::Film(Box::new(writer)))) };
+            all.push((path.clone(), video));
+        }
+        Ok(Self { all })
+    }
+
+    /// Returns whether an output is one of the videos.
+    pub(crate) fn holds(&self, path: &Path) -> bool {
+        self.all.iter().any(|(other, _)| other == path)
+    }
+
+    /// Gives the picture of a frame to a video, by the frame's place among all. Its memory goes to a pool.
+    pub(crate) fn put(&self, path: &Path, place: usize, image: EncodedImage, pool: &FramePool) -> Result<(), IoError> {
+        let Some((_, video)) = self.all.iter().find(|(other, _)| other == path) else { return Ok(()) };
+        video.put(path, (place, image), pool).map_err(foreign)
+    }
+
+    /// Leaves a frame out of all videos.
+    pub(crate) fn leave_out(&self, place: usize, pool: &FramePool) -> Result<(), IoError> {
+        self.all.iter().try_for_each(|(path, video)| video.leave_out(path, place, pool)).map_err(foreign)
+    }
+
+    /// Waits for the encoders. The videos then appear under their names. Returns notes about what they could not hold.
+    pub(crate) fn finish(&self) -> Result<Vec<Diagnostic>, IoError> {
+        let mut told = Vec::new();
+        for (path, video) in &self.all {
+            let Some(writer) = video.state().writer.take() else { continue };
+            let notes = writer.finish().map_err(foreign)?;
+            let path = path.display();
+            told.extend(
+                notes
+                    .iter()
+                    .map(|note| Diagnostic::warning(Code::MetadataLost, format!("{path}: {note}")).about(&path)),
+            );
+        }
+        Ok(told)
+    }
+}
+
+impl MadeVideo {
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Takes a picture. Threads wait here for the encoder, which waits for no thread. Pictures that come early are as many as are in
+    /// flight.
+    fn put(&self, path: &Path, (place, image): (usize, EncodedImage), pool: &FramePool) -> Result<(), VideoError> {
+        let mut state = self.state();
+        state.early.insert(place, image);
+        self.write(path, &mut state, pool)
+    }
+
+    /// Leaves a frame out.
+    fn leave_out(&self, path: &Path, place: usize, pool: &FramePool) -> Result<(), VideoError> {
+        let mut state = self.state();
+        state.left_out.insert(place);
+        self.write(path, &mut state, pool)
+    }
+
+    /// Gives the encoder the pictures whose turn it is.
+    fn write(&self, path: &Path, state: &mut State, pool: &FramePool) -> Result<(), VideoError> {
+        loop {
+            let given = state.given;
+            let image = state.early.remove(&given);
+            if image.is_none() && !state.left_out.contains(&given) {
+                return Ok(());
+            }
+            state.given += 1;
+            let (Some(image), Some(writer)) = (image, &mut state.writer) else { continue };
+            writer.write(path, &image, self.times.get(given).copied())?;
+            pool.give(image.into_samples());
+        }
+    }
+}
+
+impl Encoder {
+    fn write(&mut self, path: &Path, image: &EncodedImage, time: Option<i64>) -> Result<(), VideoError> {
+        match self {
+            Self::Film(writer) => writer.write(image, time),
+            Self::Raw(writer) => writer.write(image, &path.display().to_string()),
+        }
+    }
+
+    /// Finishes the file, and returns notes about what it cannot hold.
+    fn finish(self) -> Result<Vec<String>, VideoError> {
+        match self {
+            Self::Film(writer) => Ok(writer.finish()?.notes),
+            Self::Raw(writer) => writer.finish().map(|()| Vec::new()),
+        }
+    }
+}
+
+fn rate_of(times: FrameTimes) -> Ratio {
+    match times {
+        FrameTimes::Even { rate } | FrameTimes::Stamps { rate, .. } => rate,
+    }
+}
+
+fn codec(plan: &VideoPlan) -> Result<Option<Codec>> {
+    let Some(name) = &plan.settings.codec else { return Ok(None) };
+    let known = || Codec::ALL.map(Codec::name).join(", ");
+    let codec = Codec::of_name(name);
+    codec.map(Some).ok_or_else(|| usage(format!("{VIDEO_CODEC} {name}: no such codec; choose one of {}", known())))
+}
+
+/// Returns the times of the frames, as settings and, of a variable rate, one by one.
+fn times(
+    (rate, plan): (Option<FrameRate>, &VideoPlan),
+    source: Option<(&VideoInfo, &[u64])>,
+    told: &mut Vec<Diagnostic>,
+) -> Result<(FrameTimes, Vec<i64>)> {
+    let even = |rate: FrameRate| -> FrameTimes {
+        let ratio = Ratio::new(rate.frames.into(), rate.seconds.into()).unwrap_or(Ratio::ONE);
+        FrameTimes::Even { rate: ratio }
+    };
+    if let Some(rate) = rate {
+        return Ok((even(rate), Vec::new()));
+    }
+    let Some((info, frames)) = source else {
+        if plan.frames > 1 {
+            let message = format!(
+                "the video gets {USUAL} frames a second, since nothing tells its rate; give another with {FPS}"
+            );
+            told.push(Diagnostic::warning(Code::FrameRate, message));
+        }
+        return Ok((even(USUAL), Vec::new()));
+    };
+    let is_forward = frames.windows(2).all(|pair| pair[0] < pair[1]);
+    if info.is_variable && is_forward {
+        let timeline = Ffmpeg::find().and_then(|ffmpeg| ffmpeg.timeline(info)).map_err(foreign)?;
+        let stamps: Option<Vec<i64>> = frames.iter().map(|frame| timeline.time(*frame)).collect();
+        if let (Timeline::Listed { time_base, .. }, Some(stamps)) = (&timeline, stamps) {
+            let message = format!(
+                "{}: the frame rate varies, and each frame keeps its time; {FPS} gives the video an even rate",
+                info.path.display()
+            );
+            told.push(Diagnostic::note(Code::FrameRate, message));
+            let first = stamps.first().copied().unwrap_or_default();
+            let stamps = stamps.iter().map(|time| time - first).collect();
+            return Ok((FrameTimes::Stamps { time_base: *time_base, rate: info.rate }, stamps));
+        }
+    }
+    Ok((FrameTimes::Even { rate: info.rate }, Vec::new()))
+}
+
+/// Returns what a video takes over of its source. Sound goes along if frames follow each other as they did.
+fn carried(source: Option<(&VideoInfo, &[u64])>, times: FrameTimes, told: &mut Vec<Diagnostic>) -> Option<Carried> {
+    let (info, frames) = source?;
+    let follows = |pair: &[u64]| pair[1] == pair[0] + 1;
+    let why = if info.cut.is_some() {
+        Some("the file is cut".to_owned())
+    } else if !frames.windows(2).all(follows) {
+        Some(format!("{FRAMES} leaves out frames between others"))
+    } else {
+        (rate_of(times) != info.rate).then(|| format!("{FPS} is another rate than its own, {}", info.rate))
+    };
+    if let Some(why) = why {
+        if !info.others.is_empty() {
+            let message = format!("{}: its sound and subtitles are left out, since {why}", info.path.display());
+            told.push(Diagnostic::warning(Code::MetadataLost, message));
+        }
+        return None;
+    }
+    let (first, last) = (*frames.first()?, *frames.last()?);
+    let is_all = first == 0 && info.announced.is_some_and(|announced| last + 1 >= announced.frames);
+    let time = |frame: u64| frame as f64 / info.rate.to_f64();
+    let seconds: Option<Range<f64>> = (!is_all).then(|| time(first)..time(last + 1));
+    Some(Carried { info: info.clone(), seconds })
+}

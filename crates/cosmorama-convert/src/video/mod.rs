@@ -1,0 +1,37 @@
+//! Videos as inputs and outputs: their frames by number, what they say of themselves, and one file of many pictures.
+//!
+//! A frame of a video has a name, such as `movie.mp4, frame 13`, that stands where a file's name would. Frames are numbered from 0, as
+//! ffmpeg counts them.
+
+#[cfg(not(feature = "video"))]
+mod absent;
+#[cfg(feature = "video")]
+mod described;
+mod frame_name;
+#[cfg(feature = "video")]
+mod made;
+#[cfg(feature = "video")]
+mod raw;
+#[cfg(feature = "video")]
+mod read;
+#[cfg_attr(not(feature = "video"), allow(dead_code, reason = "plans are for videos"))]
+mod settings;
+
+use std::path::Path;
+
+#[cfg(not(feature = "video"))]
+pub(crate) use absent::MadeVideos;
+#[cfg(not(feature = "video"))]
+pub use absent::Videos;
+pub(crate) use frame_name::FrameName;
+#[cfg(feature = "video")]
+pub(crate) use made::MadeVideos;
+#[cfg(feature = "video")]
+pub use read::Videos;
+pub use settings::{DamagedFrames, VideoSettings};
+pub(crate) use settings::{RawFiles, RawKind, VideoPlan, VideoSource};
+
+/// Returns whether a file is taken for a video or a stream of pictures, by its name. Without the feature `video`, none is.
+pub fn is_video(path: &Path) -> bool {
+    cfg!(feature = "video") && (cosmorama_io::is_video(path) || RawKind::of(path).is_some())
+}

@@ -1,0 +1,361 @@
+//! Frames of videos that are read: decoded once each, in order as far as they are asked for so.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+
+use cosmorama::raster::EncodedImage;
+use cosmorama_io::{Header, ImageFile, IoError, Limits};
+use cosmorama_spec::{FrameRate, Spec};
+use cosmorama_video::{
+    Announced, AnnouncedBy, Damaged, Fault, Ffmpeg, ReadOptions, VideoError, VideoInfo, VideoReader,
+};
+use thiserror::Error;
+
+use super::raw::{RawInfo, RawReader};
+use super::{DamagedFrames, FrameName, RawFiles, RawKind, described};
+
+/// Videos among the inputs of a conversion. Each is opened when it is first asked for.
+#[derive(Debug)]
+pub struct Videos {
+    damaged: DamagedFrames,
+    files: Arc<dyn RawFiles>,
+    ffmpeg: OnceLock<Arc<Ffmpeg>>,
+    sources: Mutex<BTreeMap<PathBuf, Arc<Source>>>,
+}
+
+/// A video whose frames are read.
+#[derive(Debug)]
+struct Source {
+    name: PathBuf,
+    content: Content,
+    /// Header that all frames share.
+    header: Header,
+    damaged: Damaged,
+    count: u64,
+    state: Mutex<State>,
+}
+
+/// Content of a video's file.
+#[derive(Debug)]
+enum Content {
+    /// A video that ffmpeg decodes.
+    Film { ffmpeg: Arc<Ffmpeg>, info: Box<VideoInfo> },
+    /// A stream of raw pictures.
+    Raw { kind: RawKind, files: Arc<dyn RawFiles>, rate: Option<FrameRate> },
+}
+
+/// Decoder of a video.
+#[derive(Debug)]
+enum Decoder {
+    Film(Box<VideoReader>),
+    Raw(RawReader),
+}
+
+/// Progress of a video's decoder.
+#[derive(Debug, Default)]
+struct State {
+    /// Decoder, and the number of the frame that it gives next.
+    reader: Option<(Decoder, u64)>,
+    /// Frames that will be asked for.
+    wanted: BTreeSet<u64>,
+    /// Whether it is known which frames will be asked for.
+    is_expected: bool,
+    /// Frames that were decoded before they were asked for.
+    early: BTreeMap<u64, EncodedImage>,
+    /// Frames that the decoder left out.
+    left_out: BTreeSet<u64>,
+    /// Error after which there are no more frames.
+    failure: Option<Shared>,
+    /// Faults of frames that are left out, or in place of which others are shown: the first of each, with their number and the reason.
+    faults: BTreeMap<u64, (u64, String)>,
+}
+
+/// Frames at most that are held before they are asked for. Threads ask for few frames out of order; those that are dropped are
+/// decoded again.
+const MOST_EARLY: usize = 64;
+
+impl Videos {
+    /// Creates an empty list of videos. Streams of raw pictures come from `files`.
+    pub(crate) fn new(damaged: DamagedFrames, files: Arc<dyn RawFiles>) -> Self {
+        Self { damaged, files, ffmpeg: OnceLock::new(), sources: Mutex::default() }
+    }
+
+    /// Returns the header of a frame.
+    pub(crate) fn header(&self, name: &FrameName) -> Result<Header, IoError> {
+        Ok(self.source(&name.video)?.header.clone())
+    }
+
+    /// Decodes a frame.
+    pub(crate) fn picture(&self, name: &FrameName, limits: &Limits) -> Result<ImageFile, IoError> {
+        let source = self.source(&name.video)?;
+        let image = source.frame(name.frame, limits)?;
+        let image = image.ok_or_else(|| IoError::LeftOut { path: name.path() })?;
+        let Header { format, metadata, .. } = source.header.clone();
+        Ok(ImageFile { format, image, metadata, window: None })
+    }
+
+    /// Returns the number of frames.
+    pub(crate) fn count(&self, video: &Path) -> Result<u64, IoError> {
+        Ok(self.source(video)?.count)
+    }
+
+    /// Returns the rate; `None` if it varies, or none is said.
+    pub(crate) fn rate(&self, video: &Path) -> Result<Option<FrameRate>, IoError> {
+        Ok(match &self.source(video)?.content {
+            Content::Film { info, .. } => {
+                let rate = FrameRate { frames: info.rate.numerator(), seconds: info.rate.denominator() };
+                (!info.is_variable).then_some(rate)
+            }
+            Content::Raw { rate, .. } => *rate,
+        })
+    }
+
+    /// Returns the projection that the spherical tags of a video name.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub fn spec(&self, video: &Path) -> Result<Option<Spec>, IoError> {
+        Ok(self.info(video)?.and_then(|info| described::spec(&info)))
+    }
+
+    /// Returns what a video says of itself beside its pictures, each under a name, in the order of a report.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub fn facts(&self, video: &Path) -> Result<Vec<(&'static str, String)>, IoError> {
+        if let Some(info) = self.info(video)? {
+            return Ok(described::facts(&info));
+        }
+        let rate = self.rate(video)?;
+        Ok(rate.map(|rate| ("frame_rate", rate.to_string())).into_iter().collect())
+    }
+
+    /// Says which frames will be asked for, so that they are kept if they are decoded before.
+    pub(crate) fn expect(&self, video: &Path, frames: impl Iterator<Item = u64>) -> Result<(), IoError> {
+        let source = self.source(video)?;
+        let mut state = source.state();
+        state.wanted.extend(frames);
+        state.is_expected = true;
+        Ok(())
+    }
+
+    /// Returns messages about frames that were damaged, and about frames that were not announced; an item for each video.
+    pub(crate) fn complaints(&self) -> Vec<String> {
+        self.sources().values().filter_map(|source| source.complaint()).collect()
+    }
+
+    /// Returns what a video is; `None` for a stream of raw pictures.
+    pub(super) fn info(&self, video: &Path) -> Result<Option<VideoInfo>, IoError> {
+        Ok(match &self.source(video)?.content {
+            Content::Film { info, .. } => Some((**info).clone()),
+            Content::Raw { .. } => None,
+        })
+    }
+
+    fn source(&self, video: &Path) -> Result<Arc<Source>, IoError> {
+        let mut sources = self.sources();
+        if let Some(source) = sources.get(video) {
+            return Ok(Arc::clone(source));
+        }
+        let source = Arc::new(match RawKind::of(video) {
+            Some(kind) => Source::raw(kind, video, &self.files)?,
+            None => {
+                // The error of a file that is not there is the same as for pictures.
+                drop(cosmorama_io::open(video)?);
+                Source::film(self.ffmpeg()?, video, self.damaged).map_err(foreign)?
+            }
+        });
+        sources.insert(video.to_owned(), Arc::clone(&source));
+        Ok(source)
+    }
+
+    fn ffmpeg(&self) -> Result<Arc<Ffmpeg>, IoError> {
+        if let Some(ffmpeg) = self.ffmpeg.get() {
+            return Ok(Arc::clone(ffmpeg));
+        }
+        let found = Arc::new(Ffmpeg::find().map_err(foreign)?);
+        Ok(Arc::clone(self.ffmpeg.get_or_init(|| found)))
+    }
+
+    fn sources(&self) -> MutexGuard<'_, BTreeMap<PathBuf, Arc<Source>>> {
+        self.sources.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Wraps the error of a reader or writer of videos.
+pub(super) fn foreign(error: VideoError) -> IoError {
+    match error {
+        VideoError::Output(error) => error,
+        error => IoError::Video(Box::new(error)),
+    }
+}
+
+impl Source {
+    fn film(ffmpeg: Arc<Ffmpeg>, video: &Path, damaged: DamagedFrames) -> Result<Self, VideoError> {
+        let info = ffmpeg.probe(video)?;
+        let damaged = match damaged {
+            DamagedFrames::Error => Damaged::Error,
+            DamagedFrames::Hold => Damaged::Hold,
+            DamagedFrames::Skip => Damaged::Skip,
+        };
+        let (count, header) = (count(&ffmpeg, &info)?, described::header(&info));
+        let content = Content::Film { ffmpeg, info: Box::new(info) };
+        Ok(Self { name: video.to_owned(), content, header, damaged, count, state: Mutex::default() })
+    }
+
+    fn raw(kind: RawKind, video: &Path, files: &Arc<dyn RawFiles>) -> Result<Self, IoError> {
+        let bytes = files.open(video)?;
+        let RawInfo { header, rate, count } =
+            RawInfo::read(kind, bytes, &video.display().to_string()).map_err(foreign)?;
+        let content = Content::Raw { kind, files: Arc::clone(files), rate };
+        let damaged = Damaged::Error;
+        Ok(Self { name: video.to_owned(), content, header, damaged, count, state: Mutex::default() })
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Returns a frame; `None` if it is left out. Nobody waits for another frame to be asked for, so that no two threads can wait for
+    /// each other.
+    fn frame(&self, number: u64, limits: &Limits) -> Result<Option<EncodedImage>, IoError> {
+        let mut state = self.state();
+        state.wanted.remove(&number);
+        if let Some(image) = state.early.remove(&number) {
+            return Ok(Some(image));
+        }
+        if state.left_out.contains(&number) {
+            return Ok(None);
+        }
+        if let Some(failure) = &state.failure {
+            return Err(IoError::Video(Box::new(failure.clone())));
+        }
+        self.decoded(number, limits, &mut state).map_err(|error| {
+            // Whoever asks for this frame, or a later one, is told of the same fault.
+            let failure = Shared(Arc::new(error));
+            state.failure = Some(failure.clone());
+            IoError::Video(Box::new(failure))
+        })
+    }
+
+    /// Decodes up to a frame; `None` if it is left out.
+    fn decoded(&self, number: u64, limits: &Limits, state: &mut State) -> Result<Option<EncodedImage>, VideoError> {
+        if state.reader.as_ref().is_none_or(|(_, next)| *next > number) {
+            state.close();
+            state.reader = Some(self.reader(number, state, limits)?);
+        }
+        loop {
+            let Some((reader, next)) = &mut state.reader else { return Err(self.without(number)) };
+            let first = *next;
+            let Some((index, image)) = reader.next(&self.name, first)? else {
+                return if self.damaged == Damaged::Skip { Ok(None) } else { Err(self.without(number)) };
+            };
+            *next = index + 1;
+            state.left_out.extend(first..index);
+            if index == number {
+                if state.is_expected && state.wanted.is_empty() && number + 1 < self.count {
+                    state.close();
+                }
+                return Ok(Some(image));
+            }
+            let is_left_out = index > number;
+            if state.wanted.contains(&index) && state.early.len() < MOST_EARLY {
+                state.early.insert(index, image);
+            }
+            if is_left_out {
+                return Ok(None);
+            }
+        }
+    }
+
+    /// Starts a decoder that comes to a frame, and returns it with the number of its first frame. Of a whole file it goes on to the
+    /// file's end, where it tells whether there are more frames than are announced. Of a file that is cut it takes the frames that are
+    /// wanted, so that the first that is missing is named.
+    fn reader(&self, first: u64, state: &State, limits: &Limits) -> Result<(Decoder, u64), VideoError> {
+        let (ffmpeg, info) = match &self.content {
+            Content::Film { ffmpeg, info } => (ffmpeg, info),
+            Content::Raw { kind, files, .. } => {
+                let reader =
+                    RawReader::open(*kind, files.open(&self.name)?, &self.name.display().to_string(), limits.memory)?;
+                return Ok((Decoder::Raw(reader), 0));
+            }
+        };
+        let last = state.wanted.last().copied().unwrap_or(0).max(first);
+        let last = if state.is_expected { last } else { last.max(self.count.saturating_sub(1)) };
+        let is_all = first == 0 && info.cut.is_none();
+        let frames = (!is_all).then_some(first..=last);
+        let options = ReadOptions { frames, damaged: self.damaged, memory: limits.memory, ..ReadOptions::default() };
+        Ok((Decoder::Film(Box::new(VideoReader::open(ffmpeg, info, options)?)), first))
+    }
+
+    fn without(&self, asked: u64) -> VideoError {
+        let last = self.count.saturating_sub(1);
+        VideoError::NoSuchFrame { path: self.name.clone(), asked, last }
+    }
+
+    fn complaint(&self) -> Option<String> {
+        let mut state = self.state();
+        let path = self.name.display();
+        if let Some((reader, next)) = &mut state.reader
+            && *next == self.count
+            && reader.next(&self.name, *next).is_ok_and(|frame| frame.is_some())
+        {
+            return Some(format!(
+                "{path}: there are more frames than the {} that it announces; they are left out, so write it again by a program that \
+                 counts them",
+                self.count
+            ));
+        }
+        state.close();
+        let (first, (_, reason)) = state.faults.first_key_value()?;
+        let count: u64 = state.faults.values().map(|(count, _)| count).sum();
+        let instead = if self.damaged == Damaged::Skip { "left out" } else { "replaced by the one before" };
+        Some(format!(
+            "{path}: {count} {} damaged or missing, and {instead}; the first is frame {first} ({reason})",
+            if count == 1 { "frame is" } else { "frames are" }
+        ))
+    }
+}
+
+impl Decoder {
+    /// Returns the next frame with its number; `None` after the last. The number of a stream's is counted.
+    fn next(&mut self, name: &Path, number: u64) -> Result<Option<(u64, EncodedImage)>, VideoError> {
+        Ok(match self {
+            Self::Film(reader) => reader.next_frame()?.map(|frame| (frame.index, frame.image)),
+            Self::Raw(reader) => reader.next_picture(&name.display().to_string())?.map(|image| (number, image)),
+        })
+    }
+}
+
+impl State {
+    /// Ends the decoder, and notes its faults.
+    fn close(&mut self) {
+        let Some((Decoder::Film(reader), _)) = self.reader.take() else { return };
+        let faults = reader.faults().iter();
+        self.faults.extend(faults.map(|Fault { frame, count, reason }| (*frame, (*count, reason.clone()))));
+    }
+}
+
+/// Error that several threads are told of.
+#[derive(Clone, Debug, Error)]
+#[error(transparent)]
+struct Shared(Arc<VideoError>);
+
+/// Returns the number of frames that a file announces. Where only its duration tells, which may be rounded, its coded frames are
+/// counted.
+fn count(ffmpeg: &Ffmpeg, info: &VideoInfo) -> Result<u64, VideoError> {
+    let announced = match info.announced {
+        Some(Announced { frames, by: AnnouncedBy::Count }) => return Ok(frames),
+        Some(Announced { frames, by: AnnouncedBy::Duration }) => Some(frames),
+        None => None,
+    };
+    if let (Some(frames), Some(_)) = (announced, info.cut) {
+        return Ok(frames);
+    }
+    // The times of a variable rate are listed one by one.
+    let mut listed = info.clone();
+    listed.is_variable = true;
+    let coded = ffmpeg.timeline(&listed)?.frames().unwrap_or_default();
+    Ok(announced.filter(|frames| coded + 1 < *frames).unwrap_or(coded))
+}

@@ -1,0 +1,182 @@
+use std::io::{self, BufRead, BufReader, Read};
+use std::path::Path;
+use std::process::{self, Command, ExitStatus, Stdio};
+use std::thread::{self, JoinHandle};
+use std::time::{Duration, Instant};
+
+use crate::VideoError;
+
+/// Time between two looks at a program that is waited for.
+const LOOK: Duration = Duration::from_millis(5);
+
+/// Longest message that is kept of a program.
+const LONGEST_LINE: u64 = 1 << 16;
+
+/// A running program. Dropped, it is ended and waited for, so that none stays behind.
+#[derive(Debug)]
+pub(crate) struct Child(process::Child);
+
+impl Child {
+    /// Starts a program in a group of its own: an interrupt at the terminal reaches this process alone, which then ends the other.
+    pub(crate) fn start(mut command: Command, program: &str) -> Result<Self, VideoError> {
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        command.spawn().map(Self).map_err(|source| VideoError::Run { program: program.to_owned(), source })
+    }
+
+    pub(crate) fn stdin(&mut self) -> Option<process::ChildStdin> {
+        self.0.stdin.take()
+    }
+
+    pub(crate) fn stdout(&mut self) -> Option<process::ChildStdout> {
+        self.0.stdout.take()
+    }
+
+    pub(crate) fn stderr(&mut self) -> Option<process::ChildStderr> {
+        self.0.stderr.take()
+    }
+
+    /// Waits until the program has ended.
+    pub(crate) fn wait(&mut self) -> io::Result<ExitStatus> {
+        self.0.wait()
+    }
+
+    /// Waits until the program has ended, `patience` at most.
+    fn wait_for(&mut self, patience: Duration) -> io::Result<Option<ExitStatus>> {
+        let begin = Instant::now();
+        loop {
+            let status = self.0.try_wait()?;
+            if status.is_some() || begin.elapsed() > patience {
+                return Ok(status);
+            }
+            thread::sleep(LOOK);
+        }
+    }
+}
+
+impl Drop for Child {
+    fn drop(&mut self) {
+        // A program that has ended and was waited for is not ended twice: `kill` says so, and nothing is lost.
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// Output of a program that has ended.
+#[derive(Debug)]
+pub(crate) struct Said {
+    pub(crate) is_success: bool,
+    pub(crate) stdout: Vec<u8>,
+    pub(crate) stderr: String,
+}
+
+impl Said {
+    /// Returns the last words that the program has written.
+    pub(crate) fn last_words(&self) -> String {
+        last_line(&self.stderr)
+    }
+}
+
+/// Returns the last line with words, or that there is none.
+fn last_line(text: &str) -> String {
+    let line = text.lines().rev().map(str::trim).find(|line| !line.is_empty());
+    line.map_or_else(|| "it says nothing".to_owned(), str::to_owned)
+}
+
+/// Runs a program about a file, and returns what it prints.
+pub(super) fn output(
+    command: Command,
+    program: &'static str,
+    path: &Path,
+    limit: usize,
+    patience: Duration,
+) -> Result<Said, VideoError> {
+    let failed = |source| VideoError::Run { program: program.to_owned(), source };
+    let mut child = piped(command, program)?;
+    let stdout = drain(child.stdout(), limit);
+    let stderr = drain(child.stderr(), limit);
+    let status = child.wait_for(patience).map_err(failed)?;
+    // Its pipes end with it.
+    drop(child);
+    let stdout = joined(stdout).map_err(failed)?;
+    let stderr = String::from_utf8_lossy(&joined(stderr).map_err(failed)?).into_owned();
+    let Some(status) = status else {
+        return Err(VideoError::TooSlow { path: path.to_owned(), program, seconds: patience.as_secs() });
+    };
+    Ok(Said { is_success: status.success(), stdout, stderr })
+}
+
+/// Runs a program about a file, and gives each line that it prints to `each`.
+pub(super) fn lines(
+    command: Command,
+    program: &'static str,
+    path: &Path,
+    mut each: impl FnMut(&str) -> Result<(), VideoError>,
+) -> Result<(), VideoError> {
+    let failed = |source| VideoError::Run { program: program.to_owned(), source };
+    let mut child = piped(command, program)?;
+    let stderr = drain(child.stderr(), LONGEST_LINE as usize);
+    let mut stdout = BufReader::new(child.stdout().ok_or_else(|| failed(io::ErrorKind::BrokenPipe.into()))?);
+    let mut line = String::new();
+    while stdout.by_ref().take(LONGEST_LINE).read_line(&mut line).map_err(failed)? > 0 {
+        each(line.trim_end())?;
+        line.clear();
+    }
+    let status = child.wait().map_err(failed)?;
+    if !status.success() {
+        let words = String::from_utf8_lossy(&joined(stderr).map_err(failed)?).into_owned();
+        return Err(VideoError::Decode { path: path.to_owned(), reason: last_line(&words) });
+    }
+    Ok(())
+}
+
+fn piped(mut command: Command, program: &str) -> Result<Child, VideoError> {
+    command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    Child::start(command, program)
+}
+
+type Drained = JoinHandle<io::Result<Vec<u8>>>;
+
+/// Starts a thread that reads a pipe to its end, so that the program never waits for a reader, and keeps its first `limit` bytes.
+fn drain(pipe: Option<impl Read + Send + 'static>, limit: usize) -> Drained {
+    thread::spawn(move || {
+        let Some(mut pipe) = pipe else { return Ok(Vec::new()) };
+        let mut kept = Vec::new();
+        pipe.by_ref().take(limit as u64).read_to_end(&mut kept)?;
+        io::copy(&mut pipe, &mut io::sink())?;
+        Ok(kept)
+    })
+}
+
+fn joined(thread: Drained) -> io::Result<Vec<u8>> {
+    thread.join().unwrap_or_else(|_| Err(io::Error::other("the thread that reads it has panicked")))
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    fn shell(script: &str) -> Command {
+        let mut command = Command::new("sh");
+        command.args(["-c", script]);
+        command
+    }
+
+    #[test]
+    fn a_program_that_does_not_end_is_ended() {
+        let begin = Instant::now();
+        let error = output(shell("sleep 60"), "ffprobe", Path::new("a"), 9, Duration::from_millis(50)).unwrap_err();
+        assert!(matches!(error, VideoError::TooSlow { .. }), "{error}");
+        assert!(begin.elapsed() < Duration::from_secs(20));
+    }
+
+    #[test]
+    fn full_pipes_do_not_stop_a_program() {
+        let much = "yes out | head -c 1000000; yes err | head -c 1000000 >&2; exit 3";
+        let said = output(shell(much), "ffprobe", Path::new("a"), 10, Duration::from_secs(60)).unwrap();
+        assert_eq!(
+            (said.is_success, said.stdout.as_slice(), said.stderr.as_str()),
+            (false, &b"out\nout\nou"[..], "err\nerr\ner")
+        );
+    }
+}

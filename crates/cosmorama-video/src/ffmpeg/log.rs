@@ -1,0 +1,135 @@
+use std::collections::VecDeque;
+use std::io::{BufRead, BufReader, Read};
+use std::sync::mpsc::{self, Receiver};
+use std::thread;
+
+/// Bytes of a line of ffmpeg's messages.
+const LONGEST_LINE: u64 = 1 << 16;
+
+/// Complaints that are kept for the message.
+const KEPT: usize = 20;
+
+/// Event in ffmpeg's messages.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Event {
+    /// A frame has passed the filter that says so, with its time in ticks if it has one.
+    Frame(Option<i64>),
+    /// The next frame was decoded with errors.
+    Corrupt,
+    /// A message of an error.
+    Complaint(String),
+}
+
+/// Messages of ffmpeg, read by a thread of their own so that ffmpeg never waits for a reader.
+#[derive(Debug)]
+pub(crate) struct Log {
+    events: Receiver<Event>,
+    /// Last complaints.
+    complaints: VecDeque<String>,
+}
+
+impl Log {
+    /// Options that make ffmpeg write the messages as they are read here.
+    pub(crate) const OPTIONS: [&'static str; 2] = ["-v", "repeat+level+warning"];
+
+    /// Starts to read.
+    pub(crate) fn of(pipe: Option<impl Read + Send + 'static>) -> Self {
+        let (sender, events) = mpsc::channel();
+        thread::spawn(move || {
+            let Some(pipe) = pipe else { return };
+            let mut pipe = BufReader::new(pipe);
+            let mut line = Vec::new();
+            while pipe.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut line).is_ok_and(|read| read > 0) {
+                if let Some(event) = event(&String::from_utf8_lossy(&line)) {
+                    // Nobody listens any more once the reader is dropped; the pipe is emptied all the same.
+                    let _ = sender.send(event);
+                }
+                line.clear();
+            }
+        });
+        Self { events, complaints: VecDeque::new() }
+    }
+
+    /// Waits for the next event; `None` once ffmpeg has ended.
+    pub(crate) fn next(&mut self) -> Option<Event> {
+        let event = self.events.recv().ok()?;
+        if let Event::Complaint(text) = &event {
+            self.complaints.truncate(KEPT - 1);
+            self.complaints.push_front(text.clone());
+        }
+        Some(event)
+    }
+
+    /// Reads the rest, and returns the last words of ffmpeg that name a cause.
+    pub(crate) fn last_words(&mut self) -> String {
+        while self.next().is_some() {}
+        let cause = self.complaints.iter().find(|text| !CONSEQUENCES.iter().any(|words| text.contains(words)));
+        let text = cause.or(self.complaints.front());
+        text.map_or_else(|| "it says nothing".to_owned(), Clone::clone)
+    }
+
+    /// Reads the rest, and returns the cause that it tells, if it tells one.
+    pub(crate) fn rest(&mut self) -> Option<String> {
+        self.complaints.clear();
+        while self.next().is_some() {}
+        (!self.complaints.is_empty()).then(|| self.last_words())
+    }
+}
+
+/// Messages that follow from others.
+const CONSEQUENCES: [&str; 4] =
+    ["Conversion failed", "Error marking filters as finished", "Error closing", "Terminating demuxer"];
+
+/// Messages of the level of errors that are about nothing that is seen: pictures that a broken link or an early start takes away
+/// are dropped, and then missed by their numbers.
+const HARMLESS: [&str; 3] = ["co located POCs unavailable", "mmco: unref short failure", "Last message repeated"];
+
+/// Returns the event that a line tells; `None` for other messages.
+fn event(line: &str) -> Option<Event> {
+    if let Some((_, rest)) = line.split_once("frame:")
+        && let Some((_, rest)) = rest.split_once("pts:")
+    {
+        let time = rest.split_whitespace().next().and_then(|ticks| ticks.parse().ok());
+        return Some(Event::Frame(time));
+    }
+    if line.contains("corrupt decoded frame") {
+        return Some(Event::Corrupt);
+    }
+    let is_error = ["[error] ", "[fatal] ", "[panic] "].iter().any(|level| line.contains(level));
+    let is_harmless = HARMLESS.iter().any(|words| line.contains(words));
+    (is_error && !is_harmless).then(|| Event::Complaint(without_marks(line)))
+}
+
+/// Returns a message without addresses in memory and levels.
+fn without_marks(line: &str) -> String {
+    let mut text = line.trim();
+    for level in ["[error] ", "[fatal] ", "[panic] "] {
+        text = text.split_once(level).map_or(text, |(_, rest)| rest);
+    }
+    text.chars().filter(|letter| !letter.is_control()).take(400).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_tell_frames_damage_and_errors() {
+        assert_eq!(event("frame:1    pts:512     pts_time:0.04\n"), Some(Event::Frame(Some(512))));
+        assert_eq!(event("[png @ 0x5] frame:1    pts:NOPTS   pts_time:NOPTS"), Some(Event::Frame(None)));
+        assert_eq!(event("c=1\n"), None);
+        let damaged = "[warning] a.mov: corrupt decoded frame in stream 0";
+        assert_eq!(event(damaged), Some(Event::Corrupt));
+        let error = event("[png @ 0x55db] [error] chunk too big\n");
+        assert_eq!(error, Some(Event::Complaint("chunk too big".to_owned())));
+        assert_eq!(event("[swscaler @ 0x55db] [warning] deprecated pixel format used"), None);
+        assert_eq!(event("[h264 @ 0x55db] [error] co located POCs unavailable"), None);
+    }
+
+    #[test]
+    fn the_cause_is_told_and_not_what_follows() {
+        let text = "[error] No space left on device\n[fatal] Conversion failed!\n";
+        assert_eq!(Log::of(Some(text.as_bytes())).last_words(), "No space left on device");
+        assert_eq!(Log::of(Some(&b""[..])).last_words(), "it says nothing");
+    }
+}

@@ -1,0 +1,144 @@
+//! Answer of ffprobe about a file.
+
+use std::fs::File;
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::first_frame::FirstFrame;
+use super::stream::{Stream, text};
+use super::timeline::PATIENCE;
+use super::{Announced, AnnouncedBy, CutShort, OtherStream, StreamKind, VideoInfo, is_boxes, structure};
+use crate::ffmpeg::Said;
+use crate::{Ffmpeg, SpatialTags, VideoError};
+
+/// Bytes of ffprobe's answer.
+const ANSWER: usize = 16 << 20;
+
+/// Frames in a second from which on a duration tells no number of them.
+const FASTEST: f64 = 1e6;
+
+impl Ffmpeg {
+    /// Reads what a video is. One frame is decoded where only frames tell the tags of high dynamic range.
+    ///
+    /// # Errors
+    /// When the file cannot be read, holds no video, or says impossible things of it.
+    pub fn probe(&self, path: &Path) -> Result<VideoInfo, VideoError> {
+        let cut = looked_at(path)?;
+        let said =
+            self.ffprobe(path, &["-of", "json", "-show_format", "-show_streams", "-show_chapters"], ANSWER, PATIENCE)?;
+        let document = document(path, &said, cut)?;
+        let streams = document["streams"].as_array().map(Vec::as_slice).unwrap_or_default();
+        let no_video = || VideoError::NoVideo { path: path.to_owned(), reason: "it has no stream of video".to_owned() };
+        let number = streams.iter().position(is_video).ok_or_else(no_video)?;
+        let stream = Stream::read(path, &streams[number])?;
+        let format = &document["format"];
+        let others = streams.iter().enumerate().filter(|(index, _)| *index != number);
+        let others = others.map(|(_, stream)| other(stream)).collect::<Vec<_>>();
+        let mut info = stream.into_info(path, text(format, "format_name").unwrap_or_default());
+        info.chapters = document["chapters"].as_array().map_or(0, Vec::len);
+        info.file_start = text(format, "start_time").and_then(|time| time.parse().ok()).unwrap_or(0.0);
+        info.metadata = metadata(format);
+        info.timecode = timecode(&streams[number], streams, format);
+        info.cut = cut;
+        let alone = others.is_empty().then(|| text(format, "duration")).flatten();
+        info.duration = info.duration.or_else(|| alone?.parse().ok());
+        info.others = others;
+        info.announced = info.announced.or_else(|| announced_by_duration(&info));
+        self.complete(&mut info)?;
+        Ok(info)
+    }
+
+    /// Adds what only the file's boxes, or its first frame, tell.
+    fn complete(&self, info: &mut VideoInfo) -> Result<(), VideoError> {
+        if is_boxes(&info.container) {
+            match SpatialTags::read(&info.path) {
+                Ok(tags) => info.spatial = tags.or(info.spatial),
+                Err(error) => info.notes.push(format!("its spherical tags are not read: {error}")),
+            }
+        }
+        // The messages of H.265 are in the stream itself, and containers need not repeat them.
+        if info.colour.is_hdr() && info.hdr.mastering.is_none() {
+            let frame = FirstFrame::read(self, info)?;
+            info.hdr.mastering = frame.hdr.mastering;
+            info.hdr.light = info.hdr.light.or(frame.hdr.light);
+        }
+        if info.colour.matrix.is_none() && !info.is_rgb && !info.is_grey {
+            let name = crate::colour::Axis::Matrix.name(info.matrix());
+            info.notes.push(format!("it names no matrix from YUV to RGB; by its size, {name} is taken"));
+        }
+        Ok(())
+    }
+}
+
+/// Looks at a file before ffprobe does: only files are read, and no pipe without a writer is waited for.
+fn looked_at(path: &Path) -> Result<Option<CutShort>, VideoError> {
+    let unread = |source| VideoError::Read { path: path.to_owned(), source };
+    if !path.metadata().map_err(unread)?.is_file() {
+        let found = "no file, but a folder, pipe or device".to_owned();
+        let expected = "a file; pipes are read as Y4M, PAM or PFM".to_owned();
+        return Err(VideoError::Unsupported { path: path.to_owned(), found, expected });
+    }
+    let mut file = File::open(path).map_err(unread)?;
+    Ok(structure::cut(&mut file))
+}
+
+fn document(path: &Path, said: &Said, cut: Option<CutShort>) -> Result<Value, VideoError> {
+    let parsed = serde_json::from_slice::<Value>(&said.stdout).ok();
+    if let Some(document) = parsed.filter(|document| said.is_success && document["streams"].is_array()) {
+        return Ok(document);
+    }
+    Err(match cut {
+        Some(CutShort { expected, found }) => VideoError::Cut { path: path.to_owned(), expected, found },
+        None => VideoError::NoVideo { path: path.to_owned(), reason: said.last_words() },
+    })
+}
+
+/// Returns whether a stream is video, and not the picture of a cover.
+fn is_video(stream: &Value) -> bool {
+    let is_cover = stream["disposition"]["attached_pic"].as_i64() == Some(1);
+    stream["codec_type"] == "video" && !is_cover
+}
+
+fn other(stream: &Value) -> OtherStream {
+    let kind = match stream["codec_type"].as_str() {
+        Some("audio") => StreamKind::Audio,
+        Some("subtitle") => StreamKind::Subtitle,
+        Some("video") => StreamKind::Video,
+        _ => StreamKind::Data,
+    };
+    let number = |name: &str| stream[name].as_u64().and_then(|number| u32::try_from(number).ok()).unwrap_or(0);
+    OtherStream {
+        index: number("index"),
+        kind,
+        codec: text(stream, "codec_name").unwrap_or_default().to_owned(),
+        language: tag(stream, "language").filter(|language| *language != "und").map(str::to_owned),
+        channels: number("channels"),
+    }
+}
+
+/// Returns a tag, whose name Matroska writes in capitals.
+fn tag<'a>(value: &'a Value, name: &str) -> Option<&'a str> {
+    let tags = value["tags"].as_object()?;
+    tags.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)).and_then(|(_, value)| value.as_str())
+}
+
+fn timecode(video: &Value, streams: &[Value], format: &Value) -> Option<String> {
+    let all = std::iter::once(video).chain(streams).chain([format]);
+    all.filter_map(|value| tag(value, "timecode")).next().map(str::to_owned)
+}
+
+/// Names that containers write for themselves.
+const OWN: [&str; 5] = ["major_brand", "minor_version", "compatible_brands", "encoder", "duration"];
+
+fn metadata(format: &Value) -> Vec<(String, String)> {
+    let tags = format["tags"].as_object().into_iter().flatten();
+    let texts = tags.filter_map(|(name, value)| Some((name.clone(), value.as_str()?.to_owned())));
+    texts.filter(|(name, _)| !OWN.iter().any(|own| own.eq_ignore_ascii_case(name))).collect()
+}
+
+fn announced_by_duration(info: &VideoInfo) -> Option<Announced> {
+    let frames = (info.duration? * info.rate.to_f64()).round();
+    let is_told = !info.is_variable && info.rate.to_f64() < FASTEST && (1.0..1e12).contains(&frames);
+    is_told.then_some(Announced { frames: frames as u64, by: AnnouncedBy::Duration })
+}

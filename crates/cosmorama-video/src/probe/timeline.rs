@@ -1,0 +1,169 @@
+use std::time::Duration;
+
+use crate::{Ffmpeg, Ratio, VideoError, VideoInfo};
+
+/// Times of a video's frames.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Timeline {
+    /// A constant rate.
+    Even {
+        /// Time of the first frame in ticks.
+        start: i64,
+        /// Seconds a tick.
+        time_base: Ratio,
+        /// Frames a second.
+        rate: Ratio,
+    },
+    /// A time for each frame.
+    Listed {
+        /// Times in ticks, increasing.
+        times: Vec<i64>,
+        /// Seconds a tick.
+        time_base: Ratio,
+    },
+}
+
+/// Frames of a video at most: ten days of 120 a second.
+const MOST_FRAMES: usize = 100_000_000;
+
+impl Timeline {
+    /// Returns the time of a frame in ticks; `None` beyond the end of a list.
+    pub fn time(&self, frame: u64) -> Option<i64> {
+        match self {
+            Self::Even { start, time_base, rate } => {
+                let frame = i64::try_from(frame).ok()?;
+                Some(start.saturating_add(rate.inverse().rescale(frame, *time_base)))
+            }
+            Self::Listed { times, .. } => times.get(usize::try_from(frame).ok()?).copied(),
+        }
+    }
+
+    /// Returns the number of the frame whose time is nearest to a number of ticks. Times before the first frame are the first's, times
+    /// beyond the end of a list the last's.
+    pub fn frame(&self, time: i64) -> u64 {
+        match self {
+            Self::Even { start, time_base, rate } => {
+                let frame = time_base.rescale(time.saturating_sub(*start), rate.inverse());
+                u64::try_from(frame).unwrap_or(0)
+            }
+            Self::Listed { times, .. } => nearest(times, time) as u64,
+        }
+    }
+
+    /// Returns the number of the first frame that begins `seconds` after the first frame, or later, to within a tick.
+    pub fn frame_at(&self, seconds: f64) -> u64 {
+        let ticks = |time_base: &Ratio| (seconds.max(0.0) / time_base.to_f64()).round() as i64;
+        match self {
+            Self::Even { rate, .. } => {
+                // Times that users write are rounded to a millisecond or a microsecond.
+                let frame = seconds.max(0.0) * rate.to_f64();
+                let nearest = frame.round();
+                if (frame - nearest).abs() < 0.05 { nearest as u64 } else { frame.ceil() as u64 }
+            }
+            Self::Listed { times, time_base } => {
+                let first = times.first().copied().unwrap_or(0);
+                times.partition_point(|time| time.saturating_sub(first) < ticks(time_base)) as u64
+            }
+        }
+    }
+
+    /// Returns the number of frames; `None` for a rate, which goes on for ever.
+    pub fn frames(&self) -> Option<u64> {
+        match self {
+            Self::Even { .. } => None,
+            Self::Listed { times, .. } => Some(times.len() as u64),
+        }
+    }
+
+    /// Returns the seconds of a tick.
+    pub fn time_base(&self) -> Ratio {
+        match self {
+            Self::Even { time_base, .. } | Self::Listed { time_base, .. } => *time_base,
+        }
+    }
+}
+
+fn nearest(times: &[i64], time: i64) -> usize {
+    let after = times.partition_point(|known| *known < time);
+    let distance = |index: usize| times.get(index).map_or(u64::MAX, |known| known.abs_diff(time));
+    if after > 0 && distance(after - 1) <= distance(after) {
+        after - 1
+    } else {
+        after.min(times.len().saturating_sub(1))
+    }
+}
+
+impl Ffmpeg {
+    /// Finds the times of all frames. For a video of variable rate this reads the whole file, without decoding it.
+    ///
+    /// # Errors
+    /// When the file cannot be read, or its frames have no times.
+    pub fn timeline(&self, info: &VideoInfo) -> Result<Timeline, VideoError> {
+        if !info.is_variable {
+            return Ok(Timeline::Even { start: info.start, time_base: info.time_base, rate: info.rate });
+        }
+        let times = self.packet_times(info)?;
+        if times.is_empty() {
+            let reason = "none of its frames has a time".to_owned();
+            return Err(VideoError::NoVideo { path: info.path.clone(), reason });
+        }
+        Ok(Timeline::Listed { times, time_base: info.time_base })
+    }
+
+    /// Reads the times of all coded frames that are shown, in their order.
+    pub(crate) fn packet_times(&self, info: &VideoInfo) -> Result<Vec<i64>, VideoError> {
+        let stream = info.stream.to_string();
+        let arguments = ["-select_streams", &stream, "-show_entries", "packet=pts,flags", "-of", "csv=p=0"];
+        let mut times = Vec::new();
+        self.ffprobe_lines(&info.path, &arguments, |line| {
+            let mut fields = line.split(',');
+            let time = fields.next().and_then(|time| time.parse::<i64>().ok());
+            // D marks what is decoded for the sake of others alone.
+            let is_shown = fields.next().is_none_or(|flags| !flags.contains('D'));
+            times.extend(time.filter(|_| is_shown));
+            if times.len() > MOST_FRAMES {
+                let found = format!("it has more than {MOST_FRAMES} frames");
+                let expected = "fewer".to_owned();
+                return Err(VideoError::Unsupported { path: info.path.clone(), found, expected });
+            }
+            Ok(())
+        })?;
+        times.sort_unstable();
+        times.dedup();
+        Ok(times)
+    }
+}
+
+/// Time in which a file must be probed.
+pub(super) const PATIENCE: Duration = Duration::from_secs(60);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_and_numbers_are_each_others_inverse() {
+        let time_base = Ratio::parse("1/1000").unwrap();
+        let even = Timeline::Even { start: -40, time_base, rate: Ratio::parse("30000/1001").unwrap() };
+        for frame in [0, 1, 2, 29, 30, 1_000_000] {
+            assert_eq!(even.frame(even.time(frame).unwrap()), frame);
+        }
+        let listed = Timeline::Listed { times: vec![0, 10, 11, 400], time_base };
+        for frame in 0..4 {
+            assert_eq!(listed.frame(listed.time(frame).unwrap()), frame);
+        }
+        assert_eq!((listed.time(4), listed.frame(1000), listed.frame(-9)), (None, 3, 0));
+    }
+
+    #[test]
+    fn a_time_that_is_typed_finds_its_frame() {
+        let time_base = Ratio::parse("1/90000").unwrap();
+        let even = Timeline::Even { start: 900, time_base, rate: Ratio::parse("30000/1001").unwrap() };
+        assert_eq!(
+            [0.0, 0.033, 0.0334, 0.034, 1.001, 60.0].map(|seconds| even.frame_at(seconds)),
+            [0, 1, 1, 2, 30, 1799]
+        );
+        let listed = Timeline::Listed { times: vec![900, 1800, 90900], time_base };
+        assert_eq!([0.0, 0.01, 0.02, 1.0, 1.5].map(|seconds| listed.frame_at(seconds)), [0, 1, 2, 2, 3]);
+    }
+}

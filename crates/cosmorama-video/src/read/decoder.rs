@@ -1,0 +1,164 @@
+//! ffmpeg that decodes: raw frames from its output, and their times from its messages.
+
+use std::io::{self, BufReader, Read};
+use std::process::{ChildStdout, Stdio};
+use std::sync::Arc;
+
+use cosmorama::raster::{Depth, EncodedImage, FramePool, Samples};
+
+use super::ReadOptions;
+use super::filters::{Raw, chain};
+use crate::ffmpeg::{Child, Event, Log, input_limits, url};
+use crate::{Ffmpeg, VideoError, VideoInfo};
+
+/// Point at which decoding begins.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Start {
+    /// Seconds after the file's beginning to which ffmpeg seeks; it lands there or before.
+    pub(super) seek: Option<f64>,
+    /// Time in ticks of the first frame that is wanted.
+    pub(super) from: Option<i64>,
+}
+
+/// A running decoder. Dropped, it ends its ffmpeg.
+#[derive(Debug)]
+pub(super) struct Decoder {
+    child: Child,
+    frames: BufReader<ChildStdout>,
+    log: Log,
+    raw: Raw,
+    size: (usize, usize),
+    pool: Arc<FramePool>,
+    /// Whether a frame that is wanted has been told.
+    has_begun: bool,
+    has_sought: bool,
+}
+
+/// A frame, and what was said of it.
+#[derive(Debug)]
+pub(super) struct Decoded {
+    pub(super) image: EncodedImage,
+    pub(super) time: Option<i64>,
+    pub(super) is_corrupt: bool,
+    /// Last message of an error before the frame.
+    pub(super) complaint: Option<String>,
+}
+
+/// End of the frames.
+#[derive(Debug)]
+pub(super) struct Ended {
+    pub(super) is_success: bool,
+    /// Message of the error that was heard, if one was.
+    pub(super) complaint: Option<String>,
+}
+
+/// Next thing that a decoder gives.
+#[derive(Debug)]
+pub(super) enum Next {
+    Frame(Decoded),
+    End(Ended),
+}
+
+impl Decoder {
+    pub(super) fn start(
+        ffmpeg: &Ffmpeg,
+        info: &VideoInfo,
+        options: &ReadOptions,
+        start: Start,
+    ) -> Result<Self, VideoError> {
+        let raw = Raw::of(info);
+        let mut command = ffmpeg.ffmpeg_command();
+        command.args(Log::OPTIONS).args(input_limits());
+        // What is damaged is an error, and its frame is missed; otherwise it is painted over.
+        command.args(["-err_detect", "crccheck+bitstream+buffer+explode", "-copyts", "-noautorotate"]);
+        if options.threads > 0 {
+            command.args(["-threads", &options.threads.to_string()]);
+        }
+        if let Some(seconds) = start.seek {
+            command.args(["-noaccurate_seek", "-ss", &format!("{seconds:.6}")]);
+        }
+        command.arg("-i").arg(url(&info.path)).args(["-map", &format!("0:{}", info.stream)]);
+        command.args(["-vf", &chain(info, start.from)?]).args(ffmpeg.every_frame_once());
+        command.args(["-f", "rawvideo", "-c:v", "rawvideo", "-pix_fmt", raw.name(), "pipe:1"]);
+        command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = Child::start(command, "ffmpeg")?;
+        let log = Log::of(child.stderr());
+        let stdout = child.stdout().ok_or_else(|| failed(io::ErrorKind::BrokenPipe.into()))?;
+        Ok(Self {
+            child,
+            frames: BufReader::with_capacity(1 << 16, stdout),
+            log,
+            raw,
+            size: info.size(),
+            pool: Arc::clone(&options.pool),
+            has_begun: false,
+            has_sought: start.seek.is_some(),
+        })
+    }
+
+    /// Returns the next frame, or how the frames have ended.
+    pub(super) fn next(&mut self, info: &VideoInfo) -> Result<Next, VideoError> {
+        let Some(image) = self.image(info)? else { return self.end() };
+        let (mut is_corrupt, mut complaint) = (false, None);
+        let time = loop {
+            match self.log.next() {
+                Some(Event::Frame(time)) => break time,
+                Some(Event::Corrupt) => is_corrupt = true,
+                // After a seek, frames that are not wanted lack others before them.
+                Some(Event::Complaint(text)) if self.has_begun || !self.has_sought => complaint = Some(text),
+                Some(Event::Complaint(_)) => {}
+                None => break None,
+            }
+        };
+        self.has_begun = true;
+        Ok(Next::Frame(Decoded { image, time, is_corrupt, complaint }))
+    }
+
+    fn image(&mut self, info: &VideoInfo) -> Result<Option<EncodedImage>, VideoError> {
+        let (width, height) = self.size;
+        let count = width * height * self.raw.channels.count();
+        let samples = match self.raw.depth {
+            Depth::Eight => {
+                let mut samples = self.pool.take::<u8>(count);
+                self.fill(info, &mut samples)?.then_some(Samples::U8(samples))
+            }
+            _ => {
+                let mut samples = self.pool.take::<u16>(count);
+                let is_filled = self.fill(info, bytemuck::cast_slice_mut(&mut samples))?;
+                samples.iter_mut().for_each(|sample| *sample = u16::from_le(*sample));
+                is_filled.then_some(Samples::U16(samples))
+            }
+        };
+        let Some(samples) = samples else { return Ok(None) };
+        let image = EncodedImage::new(width, height, self.raw.channels, self.raw.depth, samples);
+        image.map(Some).map_err(|error| failed(io::Error::other(error)))
+    }
+
+    /// Fills a frame; `false` at the end, an error within a frame.
+    fn fill(&mut self, info: &VideoInfo, bytes: &mut [u8]) -> Result<bool, VideoError> {
+        let mut filled = 0;
+        while filled < bytes.len() {
+            match self.frames.read(&mut bytes[filled..]) {
+                Ok(0) if filled == 0 => return Ok(false),
+                Ok(0) => {
+                    let reason = format!("it ended within a frame: {}", self.log.last_words());
+                    return Err(VideoError::Decode { path: info.path.clone(), reason });
+                }
+                Ok(read) => filled += read,
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+                Err(error) => return Err(failed(error)),
+            }
+        }
+        Ok(true)
+    }
+
+    fn end(&mut self) -> Result<Next, VideoError> {
+        let complaint = self.log.rest();
+        let status = self.child.wait().map_err(failed)?;
+        Ok(Next::End(Ended { is_success: status.success(), complaint }))
+    }
+}
+
+fn failed(source: io::Error) -> VideoError {
+    VideoError::Run { program: "ffmpeg".to_owned(), source }
+}

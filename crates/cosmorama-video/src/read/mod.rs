@@ -1,0 +1,92 @@
+//! Frames of a video, by their numbers.
+
+mod decoder;
+mod filters;
+mod reader;
+
+use std::ops::RangeInclusive;
+use std::sync::Arc;
+
+use cosmorama::raster::{EncodedImage, FramePool};
+
+pub use reader::VideoReader;
+
+/// Choices for reading a video.
+#[derive(Clone, Debug)]
+pub struct ReadOptions {
+    /// Numbers of the first and last frame, from 0; `None` for all.
+    pub frames: Option<RangeInclusive<u64>>,
+    /// Answer to a frame that is damaged or missing.
+    pub damaged: Damaged,
+    /// Bytes that one frame may take.
+    pub memory: u64,
+    /// Threads of the decoder; 0 for as many as ffmpeg thinks right.
+    pub threads: usize,
+    /// Pool from which frames take their memory.
+    pub pool: Arc<FramePool>,
+}
+
+impl Default for ReadOptions {
+    /// Returns all frames, without tolerance for damage, of at most four gigabytes each.
+    fn default() -> Self {
+        let pool = Arc::new(FramePool::default());
+        Self { frames: None, damaged: Damaged::Error, memory: 4 << 30, threads: 0, pool }
+    }
+}
+
+/// Answer to a frame that is damaged or missing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Damaged {
+    /// The job fails, and the frame is named.
+    #[default]
+    Error,
+    /// The frame before is shown again; at the beginning, the first whole one.
+    Hold,
+    /// The frame is left out.
+    Skip,
+}
+
+impl Damaged {
+    /// Returns the answer of a name: `error`, `hold` or `skip`.
+    pub fn of_name(name: &str) -> Option<Self> {
+        match name {
+            "error" => Some(Self::Error),
+            "hold" => Some(Self::Hold),
+            "skip" => Some(Self::Skip),
+            _ => None,
+        }
+    }
+}
+
+/// Frame of a video.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VideoFrame {
+    /// Number from 0 on, in the order in which frames are shown.
+    pub index: u64,
+    /// Time in ticks of the video's clock.
+    pub time: i64,
+    /// Picture: RGB of 8 bits, or of 16 if the video has more than 8; with alpha if the video has one.
+    pub image: EncodedImage,
+    /// Relation to the file's own frame.
+    pub condition: FrameCondition,
+}
+
+/// Relation of a frame to the file's own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum FrameCondition {
+    /// The file's own.
+    Whole,
+    /// Another one in the place of a damaged one.
+    Held,
+}
+
+/// Damaged or missing frames that were held or skipped.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// Number of the first frame.
+    pub frame: u64,
+    /// Number of frames in a row.
+    pub count: u64,
+    /// Finding, in words.
+    pub reason: String,
+}

@@ -1,0 +1,347 @@
+use super::decoder::{Decoded, Decoder, Ended, Next, Start};
+use super::filters::Raw;
+use super::{Damaged, Fault, FrameCondition, ReadOptions, VideoFrame};
+use crate::{Announced, AnnouncedBy, CutShort, Ffmpeg, Timeline, VideoError, VideoInfo};
+use cosmorama::raster::EncodedImage;
+
+/// Frames of a video in the order in which they are shown. Dropped early, it ends its ffmpeg.
+#[derive(Debug)]
+pub struct VideoReader {
+    ffmpeg: Ffmpeg,
+    info: VideoInfo,
+    options: ReadOptions,
+    timeline: Timeline,
+    /// Running ffmpeg; `None` once the frames have ended.
+    decoder: Option<Decoder>,
+    /// Number of the next frame.
+    expected: u64,
+    /// Frame that was decoded, while frames before it are missing.
+    ahead: Option<Ahead>,
+    /// Picture of the frame before, where it may be held.
+    held: Option<EncodedImage>,
+    /// Message of an error for which no frame is missed yet.
+    complaint: Option<Complaint>,
+    /// Number of frames, found at their end.
+    total: Option<u64>,
+    may_restart: bool,
+    faults: Vec<Fault>,
+}
+
+/// Frame with its number.
+#[derive(Debug)]
+struct Ahead {
+    index: u64,
+    frame: Decoded,
+}
+
+/// Message of an error, and the frame before which it was heard.
+#[derive(Debug)]
+struct Complaint {
+    frame: u64,
+    text: String,
+}
+
+/// Frames in a row that are held at most. More are no gap, but a lie about times or numbers.
+const LONGEST_HOLD: u64 = 100_000;
+
+/// Frames after a message in which the frame that it is about must be missed: decoders work on as many at a time.
+const PATIENCE: u64 = 64;
+
+/// Frames from whose number on seeking is worth it.
+const WORTH_SEEKING: u64 = 50;
+
+/// Seconds before a frame to which ffmpeg seeks, so that all frames that it needs lie behind.
+const MARGIN: f64 = 0.5;
+
+impl VideoReader {
+    /// Starts to decode.
+    ///
+    /// # Errors
+    /// When a frame is larger than permitted, the video is of a kind that cannot be read right (interlaced, or of a matrix that
+    /// is no matrix), the frames asked for are not there, or ffmpeg cannot be run.
+    pub fn open(ffmpeg: &Ffmpeg, info: &VideoInfo, options: ReadOptions) -> Result<Self, VideoError> {
+        check_memory(info, &options)?;
+        if let (Some(CutShort { expected, found }), None, Damaged::Error) = (info.cut, &options.frames, options.damaged)
+        {
+            return Err(VideoError::Cut { path: info.path.clone(), expected, found });
+        }
+        let timeline = ffmpeg.timeline(info)?;
+        let known =
+            timeline.frames().or(info.announced.filter(|told| told.by == AnnouncedBy::Count).map(|told| told.frames));
+        if let (Some(frames), Some(range)) = (known, &options.frames)
+            && let Some(asked) = [range.start(), range.end()].into_iter().find(|frame| **frame >= frames)
+        {
+            return Err(VideoError::NoSuchFrame {
+                path: info.path.clone(),
+                asked: *asked,
+                last: frames.saturating_sub(1),
+            });
+        }
+        let first = options.frames.as_ref().map_or(0, |range| *range.start());
+        let start = start(info, &timeline, first);
+        let decoder = Decoder::start(ffmpeg, info, &options, start)?;
+        Ok(Self {
+            ffmpeg: ffmpeg.clone(),
+            info: info.clone(),
+            options,
+            timeline,
+            decoder: Some(decoder),
+            expected: first,
+            ahead: None,
+            held: None,
+            complaint: None,
+            total: None,
+            may_restart: start.seek.is_some(),
+            faults: Vec::new(),
+        })
+    }
+
+    /// Returns the next frame; `None` after the last.
+    ///
+    /// # Errors
+    /// When a frame is damaged or missing and neither held nor skipped, or there are fewer than the file announces.
+    pub fn next_frame(&mut self) -> Result<Option<VideoFrame>, VideoError> {
+        let result = self.found_next();
+        if !matches!(result, Ok(Some(_))) {
+            self.decoder = None;
+        }
+        result
+    }
+
+    /// Returns the frames so far that were held or skipped.
+    pub fn faults(&self) -> &[Fault] {
+        &self.faults
+    }
+
+    /// Returns the times of the frames.
+    pub fn timeline(&self) -> &Timeline {
+        &self.timeline
+    }
+
+    fn found_next(&mut self) -> Result<Option<VideoFrame>, VideoError> {
+        loop {
+            if self.options.frames.as_ref().is_some_and(|range| self.expected > *range.end()) {
+                return Ok(None);
+            }
+            if self.ahead.is_none() {
+                self.decode()?;
+            }
+            let found = match self.ahead.take() {
+                Some(Ahead { index, frame }) if index == self.expected && !frame.is_corrupt => {
+                    Some(self.whole(index, frame))
+                }
+                Some(ahead) => self.gap(ahead)?,
+                None if self.expected < self.total.unwrap_or(0) => self.gap_at_the_end()?,
+                None => return Ok(None),
+            };
+            if found.is_some() {
+                return Ok(found);
+            }
+        }
+    }
+
+    fn whole(&mut self, index: u64, frame: Decoded) -> VideoFrame {
+        self.expected = index + 1;
+        if self.options.damaged == Damaged::Hold {
+            self.held = Some(frame.image.clone());
+        }
+        let time = frame.time.or_else(|| self.timeline.time(index)).unwrap_or(0);
+        VideoFrame { index, time, image: frame.image, condition: FrameCondition::Whole }
+    }
+
+    /// Decodes a frame into `ahead`, or finds the number of all frames.
+    fn decode(&mut self) -> Result<(), VideoError> {
+        loop {
+            let Some(decoder) = &mut self.decoder else { return Ok(()) };
+            let mut frame = match decoder.next(&self.info)? {
+                Next::Frame(frame) => frame,
+                Next::End(_) if std::mem::take(&mut self.may_restart) => {
+                    self.restart()?;
+                    continue;
+                }
+                Next::End(ended) => return self.ended(ended),
+            };
+            let index = frame.time.map_or(self.expected, |time| self.timeline.frame(time));
+            if index > self.expected && std::mem::take(&mut self.may_restart) {
+                // The seek has gone too far, or a frame is missing: from the beginning it is certain.
+                self.restart()?;
+                continue;
+            }
+            self.may_restart = false;
+            if let Some(text) = frame.complaint.take() {
+                self.complaint = Some(Complaint { frame: index, text });
+            }
+            if index < self.expected {
+                self.tell(index, 1, "a second picture has its time".to_owned())?;
+                continue;
+            }
+            self.ahead = Some(Ahead { index, frame });
+            return self.settle(index);
+        }
+    }
+
+    fn restart(&mut self) -> Result<(), VideoError> {
+        let start = Start { seek: None, ..start(&self.info, &self.timeline, self.expected) };
+        // The old one is ended first.
+        self.decoder = None;
+        self.decoder = Some(Decoder::start(&self.ffmpeg, &self.info, &self.options, start)?);
+        Ok(())
+    }
+
+    /// Tells of a message after which no frame was missed for long.
+    fn settle(&mut self, index: u64) -> Result<(), VideoError> {
+        match self.complaint.take_if(|complaint| index > complaint.frame + PATIENCE) {
+            Some(Complaint { frame, text }) => self.tell(frame, 1, text),
+            None => Ok(()),
+        }
+    }
+
+    /// Answers frames that are missing, or damaged, before the one that comes, or in its place.
+    fn gap(&mut self, ahead: Ahead) -> Result<Option<VideoFrame>, VideoError> {
+        let (first, is_corrupt) = (self.expected, ahead.frame.is_corrupt);
+        let end = if is_corrupt { ahead.index + 1 } else { ahead.index };
+        if !self.is_told(first) {
+            let usual = if is_corrupt { "it was decoded with errors" } else { "there is no picture of its time" };
+            let reason = self.complaint.take().map_or_else(|| usual.to_owned(), |complaint| complaint.text);
+            let count = end.min(self.end_of_range()).saturating_sub(first).max(1);
+            self.tell(first, count, reason)?;
+        }
+        if self.options.damaged == Damaged::Hold {
+            if is_corrupt && self.held.is_none() {
+                // The next one is shown instead.
+                return Ok(None);
+            }
+            let image = self.held.clone().unwrap_or_else(|| ahead.frame.image.clone());
+            self.ahead = (!is_corrupt || end > first + 1).then_some(ahead);
+            return Ok(Some(self.hold(image)));
+        }
+        self.expected = end;
+        self.ahead = (!is_corrupt).then_some(ahead);
+        Ok(None)
+    }
+
+    /// Returns whether a frame belongs to a gap that was told already.
+    fn is_told(&self, frame: u64) -> bool {
+        self.faults.last().is_some_and(|fault| (fault.frame..fault.frame + fault.count).contains(&frame))
+    }
+
+    /// Returns the number behind the last frame that is asked for.
+    fn end_of_range(&self) -> u64 {
+        self.options.frames.as_ref().map_or(u64::MAX, |range| range.end().saturating_add(1))
+    }
+
+    /// Answers frames that are announced, but missing at the end.
+    fn gap_at_the_end(&mut self) -> Result<Option<VideoFrame>, VideoError> {
+        let (found, announced) = (self.expected, self.total.unwrap_or(0));
+        let fewer = || VideoError::FewerFrames { path: self.info.path.clone(), found, announced };
+        let can_go_on = match self.options.damaged {
+            Damaged::Error => false,
+            Damaged::Hold => self.held.is_some(),
+            Damaged::Skip => found > 0,
+        };
+        let is_named = self.options.damaged == Damaged::Error && self.complaint.is_some() && self.info.cut.is_none();
+        if !can_go_on && !is_named {
+            return Err(fewer());
+        }
+        let Some(image) = self.held.clone().filter(|_| can_go_on) else {
+            self.total = None;
+            let reason = self.complaint.take().map_or_else(|| ENDS.to_owned(), |complaint| complaint.text);
+            self.tell(found, announced.min(self.end_of_range()) - found, reason)?;
+            return Ok(None);
+        };
+        if !self.is_told(found) {
+            let reason = self.complaint.take().map_or_else(|| ENDS.to_owned(), |complaint| complaint.text);
+            self.tell(found, announced.min(self.end_of_range()) - found, reason)?;
+        }
+        Ok(Some(self.hold(image)))
+    }
+
+    fn hold(&mut self, image: EncodedImage) -> VideoFrame {
+        let index = self.expected;
+        self.expected += 1;
+        VideoFrame { index, time: self.timeline.time(index).unwrap_or(0), image, condition: FrameCondition::Held }
+    }
+
+    /// Notes frames that are damaged or missing, or fails for them.
+    fn tell(&mut self, frame: u64, count: u64, reason: String) -> Result<(), VideoError> {
+        let is_too_long = self.options.damaged == Damaged::Hold && count > LONGEST_HOLD;
+        if self.options.damaged == Damaged::Error || is_too_long {
+            return Err(VideoError::DamagedFrame { path: self.info.path.clone(), frame, reason });
+        }
+        self.faults.push(Fault { frame, count, reason });
+        Ok(())
+    }
+
+    /// Finds at the end whether there should have been more frames, and whether all was well.
+    fn ended(&mut self, ended: Ended) -> Result<(), VideoError> {
+        self.decoder = None;
+        let heard = ended.complaint.map(|text| Complaint { frame: self.expected, text });
+        self.complaint = heard.or(self.complaint.take());
+        let total = self.all_frames()?;
+        if self.expected < total {
+            self.total = Some(total);
+            return Ok(());
+        }
+        let path = || self.info.path.clone();
+        let range = self.options.frames.as_ref();
+        if let Some(asked) = range.map(|range| *range.end()).filter(|last| *last >= self.expected) {
+            return Err(VideoError::NoSuchFrame { path: path(), asked, last: self.expected.saturating_sub(1) });
+        }
+        if let Some(CutShort { expected, found }) = self.info.cut.filter(|_| self.options.damaged == Damaged::Error) {
+            return Err(VideoError::Cut { path: path(), expected, found });
+        }
+        let reason = match self.complaint.take() {
+            Some(Complaint { frame, text }) if self.expected > 0 => return self.tell(frame, 1, text),
+            Some(Complaint { text, .. }) => text,
+            None if ended.is_success && self.expected > 0 => return Ok(()),
+            None => "it gives no frame".to_owned(),
+        };
+        Err(VideoError::Decode { path: path(), reason })
+    }
+
+    /// Returns the number of frames that the file should give.
+    fn all_frames(&self) -> Result<u64, VideoError> {
+        let announced = self.info.announced;
+        Ok(match (self.timeline.frames(), announced) {
+            (_, Some(Announced { frames, by: AnnouncedBy::Count })) if self.info.cut.is_some() => frames,
+            (Some(frames), _) => frames,
+            (None, Some(Announced { frames, by: AnnouncedBy::Count })) if self.expected < frames => {
+                // Some frames may be there for others alone, as where a video was cut without coding it anew.
+                frames.min(self.ffmpeg.packet_times(&self.info)?.len() as u64)
+            }
+            (None, Some(Announced { frames, by: AnnouncedBy::Count })) => frames,
+            // A duration may be rounded up.
+            (None, Some(Announced { frames, by: AnnouncedBy::Duration })) if frames <= self.expected + 1 => {
+                self.expected
+            }
+            (None, Some(Announced { frames, by: AnnouncedBy::Duration })) => frames,
+            (None, None) => self.expected,
+        })
+    }
+}
+
+/// Reason of a frame that is missing where nothing is said of it.
+const ENDS: &str = "the video ends before it";
+
+/// Returns where decoding begins for a frame to be the first.
+fn start(info: &VideoInfo, timeline: &Timeline, first: u64) -> Start {
+    let Some(time) = (first > 0).then(|| timeline.time(first)).flatten() else { return Start::default() };
+    let half = match timeline {
+        Timeline::Even { time_base, rate, .. } => rate.inverse().rescale(1, *time_base) / 2,
+        Timeline::Listed { .. } => 0,
+    };
+    let seconds = time as f64 * info.time_base.to_f64() - info.file_start - MARGIN;
+    let seek = (first >= WORTH_SEEKING && seconds > 0.0).then_some(seconds);
+    Start { seek, from: Some(time - half) }
+}
+
+fn check_memory(info: &VideoInfo, options: &ReadOptions) -> Result<(), VideoError> {
+    let (raw, (width, height)) = (Raw::of(info), info.size());
+    let needed = width as u128 * height as u128 * (raw.channels.count() * raw.depth.bytes()) as u128;
+    let limit = options.memory.min(isize::MAX as u64);
+    if needed > u128::from(limit) {
+        let size = (width as u64, height as u64);
+        return Err(VideoError::TooLarge { name: info.path.display().to_string(), size, needed, limit });
+    }
+    Ok(())
+}

@@ -1,0 +1,146 @@
+//! Sound, subtitles, chapters and metadata of another video: copied where the container can hold them, else coded anew or left out,
+//! which is said.
+
+use super::{Carried, Container, FrameTimes, WriteSettings, timecode};
+use crate::ffmpeg::{input_limits, url};
+use crate::probe::is_boxes;
+use crate::{OtherStream, StreamKind};
+
+/// Arguments for what is copied.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Plan {
+    /// Arguments of the second input.
+    pub(super) input: Vec<std::ffi::OsString>,
+    /// Arguments of the output.
+    pub(super) output: Vec<String>,
+    /// Number of streams of sound in the output.
+    pub(super) sounds: usize,
+    /// Streams of sound of the source, counted among those, that go to MP4 or MOV from such a file.
+    pub(super) fields: bool,
+    /// Statements on what is not copied.
+    pub(super) notes: Vec<String>,
+}
+
+/// Answer to a stream that is to be copied.
+enum Answer {
+    Copy,
+    /// Coded anew by this encoder.
+    Code(&'static str),
+    Leave,
+}
+
+/// Seconds below which a shift is a rounding error.
+const NOTHING: f64 = 1e-4;
+
+impl Plan {
+    pub(super) fn of(settings: &WriteSettings, container: Container) -> Self {
+        let Some(Carried { info, seconds }) = &settings.source else { return Self::default() };
+        let mut plan = Self::default();
+        // Seconds are counted from the first frame, by ffmpeg from the file's beginning.
+        let first = info.start as f64 * info.time_base.to_f64() - info.file_start;
+        let start = first + seconds.as_ref().map_or(0.0, |seconds| seconds.start);
+        plan.input.extend(input_limits().map(Into::into));
+        if start > NOTHING {
+            plan.input.extend(["-ss".into(), format!("{start:.6}").into()]);
+        }
+        if let Some(seconds) = seconds {
+            let length = (seconds.end - seconds.start).max(0.0);
+            plan.input.extend(["-t".into(), format!("{length:.6}").into()]);
+            // Chapters that begin later are left out by the output's length alone. No frame is at its very end.
+            plan.output.extend(["-t".to_owned(), format!("{:.6}", length + 0.5 / settings.rate().to_f64())]);
+        }
+        plan.input.extend(["-i".into(), url(&info.path)]);
+        for stream in &info.others {
+            plan.add(stream, container);
+        }
+        plan.fields = container.has_boxes() && is_boxes(&info.container);
+        plan.output.extend(["-map_metadata", "1", "-map_chapters", "1"].map(str::to_owned));
+        for name in ["major_brand", "minor_version", "compatible_brands"] {
+            plan.output.extend(["-metadata".to_owned(), format!("{name}=")]);
+        }
+        plan.add_timecode(settings);
+        plan
+    }
+
+    fn add(&mut self, stream: &OtherStream, container: Container) {
+        let answer = match stream.kind {
+            StreamKind::Audio => sound(&stream.codec, container),
+            StreamKind::Subtitle => subtitle(&stream.codec, container),
+            StreamKind::Video | StreamKind::Data => Answer::Leave,
+        };
+        let kind = match stream.kind {
+            StreamKind::Audio => "sound",
+            StreamKind::Subtitle => "subtitles",
+            StreamKind::Video => "video",
+            StreamKind::Data => "data",
+        };
+        let name = format!("stream {} ({kind}, {})", stream.index, stream.codec);
+        let is_sound = stream.kind == StreamKind::Audio;
+        let at = if is_sound { format!("a:{}", self.sounds) } else { format!("s:{}", self.subtitles()) };
+        let encoder = match answer {
+            // The time code has a place of its own.
+            Answer::Leave if stream.kind == StreamKind::Data && stream.codec.is_empty() => return,
+            Answer::Leave => {
+                return self.notes.push(format!("{name} is left out: {} has no room for it", container.name()));
+            }
+            Answer::Copy => "copy",
+            Answer::Code(encoder) => {
+                self.notes
+                    .push(format!("{name} is coded anew by {encoder}: {} cannot hold it as it is", container.name()));
+                encoder
+            }
+        };
+        self.output.extend(["-map".to_owned(), format!("1:{}", stream.index), format!("-c:{at}"), encoder.to_owned()]);
+        if matches!(encoder, "aac" | "libopus") {
+            self.output.extend([format!("-b:{at}"), format!("{}k", 96 * stream.channels.clamp(1, 16))]);
+        }
+        self.sounds += usize::from(is_sound);
+    }
+
+    fn subtitles(&self) -> usize {
+        self.output.iter().filter(|argument| argument.starts_with("-c:s:")).count()
+    }
+
+    fn add_timecode(&mut self, settings: &WriteSettings) {
+        let Some(Carried { info, seconds }) = &settings.source else { return };
+        let Some(code) = &info.timecode else { return };
+        let start = seconds.as_ref().map_or(0.0, |seconds| seconds.start);
+        let frames = (start * settings.rate().to_f64()).round().max(0.0) as u64;
+        let is_even = matches!(settings.times, FrameTimes::Even { .. });
+        match timecode::later(code, frames, settings.rate()).filter(|_| is_even) {
+            Some(code) => self.output.extend(["-timecode".to_owned(), code]),
+            None => self
+                .notes
+                .push(format!("the time code {} is left out: it is none of this frame rate", code.escape_debug())),
+        }
+    }
+}
+
+fn sound(codec: &str, container: Container) -> Answer {
+    let is_raw = codec.starts_with("pcm_");
+    match container {
+        Container::Matroska => Answer::Copy,
+        Container::WebM if matches!(codec, "opus" | "vorbis") => Answer::Copy,
+        Container::WebM => Answer::Code("libopus"),
+        Container::Mov if is_raw => Answer::Copy,
+        // Without loss, where MP4 has no raw samples.
+        Container::Mp4 if is_raw => Answer::Code("alac"),
+        Container::Mp4 if matches!(codec, "opus" | "flac") => Answer::Copy,
+        _ if matches!(codec, "aac" | "mp3" | "mp2" | "ac3" | "eac3" | "alac") => Answer::Copy,
+        Container::Mov => Answer::Code("pcm_s24le"),
+        Container::Mp4 => Answer::Code("aac"),
+    }
+}
+
+fn subtitle(codec: &str, container: Container) -> Answer {
+    let is_text = matches!(codec, "mov_text" | "subrip" | "ass" | "ssa" | "webvtt" | "text");
+    match (container, codec) {
+        (Container::Mp4 | Container::Mov, "mov_text") | (Container::WebM, "webvtt") => Answer::Copy,
+        (Container::Mp4 | Container::Mov, _) if is_text => Answer::Code("mov_text"),
+        (Container::WebM, _) if is_text => Answer::Code("webvtt"),
+        (Container::Matroska, "mov_text") => Answer::Code("srt"),
+        (Container::Matroska, "eia_608" | "") => Answer::Leave,
+        (Container::Matroska, _) => Answer::Copy,
+        _ => Answer::Leave,
+    }
+}

@@ -1,0 +1,208 @@
+use std::path::Path;
+
+use super::{Container, WriteSettings};
+use crate::{Ffmpeg, MasteringDisplay, VideoError};
+
+/// Codec by the name of its preset.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Codec {
+    /// H.264 by x264.
+    H264,
+    /// HEVC by x265.
+    Hevc,
+    /// ProRes 422 HQ, or 4444 with alpha.
+    ProRes,
+    /// DNxHR HQ, or HQX for more than 8 bits.
+    DnxHr,
+    /// FFV1, without loss.
+    Ffv1,
+    /// AV1 by SVT-AV1 or libaom.
+    Av1,
+    /// VP9 by libvpx.
+    Vp9,
+}
+
+/// Encoder with its arguments and the format of its pixels.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Encoder {
+    pub(super) name: &'static str,
+    pub(super) pixel_format: &'static str,
+    pub(super) arguments: Vec<String>,
+}
+
+impl Codec {
+    /// All presets.
+    pub const ALL: [Self; 7] = [Self::H264, Self::Hevc, Self::ProRes, Self::DnxHr, Self::Ffv1, Self::Av1, Self::Vp9];
+
+    /// Returns the name of the preset.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::H264 => "h264",
+            Self::Hevc => "hevc",
+            Self::ProRes => "prores",
+            Self::DnxHr => "dnxhr",
+            Self::Ffv1 => "ffv1",
+            Self::Av1 => "av1",
+            Self::Vp9 => "vp9",
+        }
+    }
+
+    /// Returns the codec of a name; `None` if none is called so.
+    pub fn of_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|codec| codec.name() == name)
+    }
+
+    /// Returns ffmpeg's encoders that make it, the best first.
+    pub fn encoders(self) -> &'static [&'static str] {
+        match self {
+            Self::H264 => &["libx264"],
+            Self::Hevc => &["libx265"],
+            Self::ProRes => &["prores_ks"],
+            Self::DnxHr => &["dnxhd"],
+            Self::Ffv1 => &["ffv1"],
+            Self::Av1 => &["libsvtav1", "libaom-av1"],
+            Self::Vp9 => &["libvpx-vp9"],
+        }
+    }
+
+    /// Returns whether the pixels are RGB, so that nothing is lost by a matrix.
+    pub(super) fn is_rgb(self) -> bool {
+        self == Self::Ffv1
+    }
+
+    /// Returns the format of the pixels; `None` if the codec has no room for alpha.
+    fn pixel_format(self, is_deep: bool, has_alpha: bool) -> Option<&'static str> {
+        match (self, is_deep, has_alpha) {
+            (Self::H264 | Self::Hevc | Self::Av1 | Self::Vp9, false, false) => Some("yuv420p"),
+            (Self::H264 | Self::Hevc | Self::Av1 | Self::Vp9, true, false) => Some("yuv420p10le"),
+            (Self::Vp9, false, true) => Some("yuva420p"),
+            (Self::ProRes, _, false) => Some("yuv422p10le"),
+            (Self::ProRes, _, true) => Some("yuva444p10le"),
+            (Self::DnxHr, false, false) => Some("yuv422p"),
+            (Self::DnxHr, true, false) => Some("yuv422p10le"),
+            (Self::Ffv1, false, false) => Some("bgr0"),
+            (Self::Ffv1, false, true) => Some("bgra"),
+            (Self::Ffv1, true, false) => Some("gbrp16le"),
+            (Self::Ffv1, true, true) => Some("gbrap16le"),
+            _ => None,
+        }
+    }
+
+    /// Chooses the codec of a container for these settings, and its encoder.
+    pub(super) fn choose(
+        ffmpeg: &Ffmpeg,
+        path: &Path,
+        container: Container,
+        settings: &WriteSettings,
+    ) -> Result<(Self, Encoder), VideoError> {
+        let is_deep = settings.is_deep() || settings.colour.is_hdr();
+        let usual = match container {
+            Container::Mp4 if is_deep => Self::Hevc,
+            Container::WebM if !Self::Vp9.is_in(ffmpeg.encoders()?) => Self::Av1,
+            _ => container.codecs()[0],
+        };
+        let codec = settings.codec.unwrap_or(usual);
+        let cannot =
+            |found: String, expected: String| VideoError::CannotHold { path: path.to_owned(), found, expected };
+        if !container.codecs().contains(&codec) {
+            let found = format!("{} does not hold {}", container.name(), codec.name());
+            return Err(cannot(found, names(container.codecs())));
+        }
+        let pixel_format = codec.pixel_format(is_deep, settings.has_alpha).ok_or_else(|| {
+            let depth = if is_deep { "more than 8" } else { "8" };
+            let able = container.codecs().iter().copied().filter(|able| able.pixel_format(is_deep, true).is_some());
+            let able = able.collect::<Vec<_>>();
+            let able = if able.is_empty() { "frames without alpha, or .mov or .mkv".to_owned() } else { names(&able) };
+            cannot(format!("{} holds no alpha with {depth} bits", codec.name()), able)
+        })?;
+        codec.check_size(settings.size).map_err(|found| cannot(found, "even numbers, or FFV1 in .mkv".to_owned()))?;
+        let known = ffmpeg.encoders()?;
+        let name = codec.encoders().iter().copied().find(|name| known.iter().any(|known| known == name));
+        let name = name.ok_or_else(|| VideoError::NoEncoder {
+            codec: codec.name(),
+            needed: codec.encoders().join(" or "),
+            existing: names(&Self::ALL.into_iter().filter(|codec| codec.is_in(known)).collect::<Vec<_>>()),
+        })?;
+        let arguments = codec.arguments(name, container, settings, is_deep);
+        Ok((codec, Encoder { name, pixel_format, arguments }))
+    }
+
+    fn is_in(self, known: &[String]) -> bool {
+        self.encoders().iter().any(|name| known.iter().any(|known| known == name))
+    }
+
+    /// Checks that chroma samples of two columns and rows fit; the error says what does not.
+    fn check_size(self, (width, height): (usize, usize)) -> Result<(), String> {
+        let (columns, rows) = match self {
+            Self::Ffv1 => (1, 1),
+            Self::ProRes | Self::DnxHr => (2, 1),
+            Self::H264 | Self::Hevc | Self::Av1 | Self::Vp9 => (2, 2),
+        };
+        if width.is_multiple_of(columns) && height.is_multiple_of(rows) {
+            return Ok(());
+        }
+        Err(format!("{} shares its chroma between neighbours, and {width}x{height} is odd", self.name()))
+    }
+
+    fn arguments(self, encoder: &str, container: Container, settings: &WriteSettings, is_deep: bool) -> Vec<String> {
+        let fixed: &[&str] = match (self, encoder) {
+            (Self::H264, _) => &["-preset", "medium", "-crf", "16"],
+            (Self::Hevc, _) => &["-preset", "medium", "-crf", "17"],
+            (Self::ProRes, _) if settings.has_alpha => &["-profile:v", "4", "-vendor", "apl0"],
+            (Self::ProRes, _) => &["-profile:v", "3", "-vendor", "apl0"],
+            (Self::DnxHr, _) if is_deep => &["-profile:v", "dnxhr_hqx"],
+            (Self::DnxHr, _) => &["-profile:v", "dnxhr_hq"],
+            // The number of slices is fixed: otherwise it would follow from the machine's threads.
+            (Self::Ffv1, _) => &["-level", "3", "-g", "1", "-slices", "16", "-slicecrc", "1"],
+            (Self::Av1, "libsvtav1") => &["-preset", "8", "-crf", "24"],
+            (Self::Av1, _) => &["-cpu-used", "6", "-row-mt", "1", "-crf", "24", "-b:v", "0"],
+            (Self::Vp9, _) => &["-row-mt", "1", "-crf", "20", "-b:v", "0"],
+        };
+        let mut arguments = fixed.iter().map(|&argument| argument.to_owned()).collect::<Vec<_>>();
+        if self == Self::Hevc {
+            arguments.extend(["-x265-params".to_owned(), x265(settings)]);
+            if container.has_boxes() {
+                // The name by which Apple's players know it.
+                arguments.extend(["-tag:v".to_owned(), "hvc1".to_owned()]);
+            }
+        }
+        arguments
+    }
+}
+
+/// Returns the parameters of x265: it alone writes the messages of HDR10 into the stream.
+fn x265(settings: &WriteSettings) -> String {
+    let mut parameters = vec!["log-level=error".to_owned()];
+    const PQ: u8 = 16;
+    if settings.colour.transfer == Some(PQ) {
+        parameters.push("hdr10=1:repeat-headers=1".to_owned());
+    }
+    if let Some(MasteringDisplay { red, green, blue, white, brightest, darkest }) = settings.hdr.mastering {
+        let pair = |name: &str, [x, y]: [u16; 2]| format!("{name}({x},{y})");
+        let colours = [pair("G", green), pair("B", blue), pair("R", red), pair("WP", white)].concat();
+        parameters.push(format!("master-display={colours}L({brightest},{darkest})"));
+    }
+    if let Some(light) = settings.hdr.light {
+        parameters.push(format!("max-cll={},{}", light.brightest, light.mean));
+    }
+    parameters.join(":")
+}
+
+fn names(codecs: &[Codec]) -> String {
+    codecs.iter().map(|codec| codec.name()).collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_container_has_a_codec_and_every_codec_a_name() {
+        for codec in Codec::ALL {
+            assert_eq!(Codec::of_name(codec.name()), Some(codec));
+            assert!(codec.pixel_format(true, false).is_some() && codec.pixel_format(false, false).is_some());
+        }
+        assert_eq!(Codec::of_name("H264"), None);
+        assert!(Codec::H264.check_size((3, 2)).is_err() && Codec::ProRes.check_size((2, 3)).is_ok());
+    }
+}

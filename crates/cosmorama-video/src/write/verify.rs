@@ -1,0 +1,55 @@
+//! Look at a video that was written: whether all is there.
+
+use std::path::Path;
+use std::time::Duration;
+
+use serde_json::Value;
+
+use crate::{Ffmpeg, VideoError};
+
+/// Expected content of a video.
+pub(super) struct Expected {
+    pub(super) frames: u64,
+    pub(super) size: (usize, usize),
+    pub(super) sounds: usize,
+    /// Whether it must say that it is spherical.
+    pub(super) is_spherical: bool,
+}
+
+/// Time for reading a whole video once, which is at least as fast as it was written.
+const PATIENCE: Duration = Duration::from_secs(12 * 60 * 60);
+
+/// Bytes of ffprobe's answer.
+const ANSWER: usize = 4 << 20;
+
+impl Expected {
+    /// Reads a temporary file and compares; messages name the file that it is to become.
+    pub(super) fn verify(&self, ffmpeg: &Ffmpeg, written: &Path, path: &Path) -> Result<(), VideoError> {
+        let not = |found: String, expected: String| VideoError::NotAsGiven { path: path.to_owned(), found, expected };
+        let said = ffmpeg.ffprobe(written, &["-count_packets", "-of", "json", "-show_streams"], ANSWER, PATIENCE)?;
+        let document = serde_json::from_slice::<Value>(&said.stdout).unwrap_or_default();
+        let streams = document["streams"].as_array().map(Vec::as_slice).unwrap_or_default();
+        let Some(video) = streams.iter().find(|stream| stream["codec_type"] == "video") else {
+            return Err(not(format!("no video ({})", said.last_words()), "one was encoded".to_owned()));
+        };
+        let frames = video["nb_read_packets"].as_str().and_then(|count| count.parse::<u64>().ok()).unwrap_or(0);
+        if frames != self.frames {
+            return Err(not(format!("{frames} frames"), format!("{} were given", self.frames)));
+        }
+        let (width, height) = self.size;
+        if (video["width"].as_u64(), video["height"].as_u64()) != (Some(width as u64), Some(height as u64)) {
+            let found = format!("frames of {}x{}", video["width"], video["height"]);
+            return Err(not(found, format!("those given are of {width}x{height}")));
+        }
+        let sounds = streams.iter().filter(|stream| stream["codec_type"] == "audio").count();
+        if sounds != self.sounds {
+            return Err(not(format!("{sounds} streams of sound"), format!("there should be {}", self.sounds)));
+        }
+        let sides = video["side_data_list"].as_array().into_iter().flatten();
+        let is_spherical = sides.into_iter().any(|data| data["side_data_type"] == "Spherical Mapping");
+        if self.is_spherical && !is_spherical {
+            return Err(not("no spherical tag".to_owned(), "one was asked for".to_owned()));
+        }
+        Ok(())
+    }
+}

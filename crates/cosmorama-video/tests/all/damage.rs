@@ -1,0 +1,178 @@
+//! What ffmpeg takes for a whole video: frames that are damaged, missing, or behind the end of a file. It ends with success on all.
+
+use std::path::Path;
+
+use cosmorama_video::{Damaged, Ffmpeg, FrameCondition, ReadOptions, VideoError, VideoReader};
+
+use crate::common::{difference, ffmpeg, frames, moving, of, probed, run};
+
+fn with(damaged: Damaged) -> ReadOptions {
+    ReadOptions { damaged, ..ReadOptions::default() }
+}
+
+/// Place and size of the coded frame that is stored at a number.
+fn packet(path: &Path, number: usize) -> (usize, usize) {
+    let lines = probed(path, "-select_streams v:0 -show_entries packet=pos,size -of csv=p=0");
+    let line = lines.lines().nth(number).unwrap();
+    let mut fields = line.split(',').map(|field| field.parse::<usize>().unwrap());
+    let (size, place) = (fields.next().unwrap(), fields.next().unwrap());
+    (place, size)
+}
+
+/// Overwrites the second half of a coded frame, as a broken disk does.
+fn damage(path: &Path, number: usize) {
+    let (place, size) = packet(path, number);
+    let mut bytes = std::fs::read(path).unwrap();
+    for (index, byte) in bytes[place + size / 2..place + size].iter_mut().enumerate() {
+        *byte = if index % 3 == 0 { byte.wrapping_mul(7).wrapping_add(91) } else { 0 };
+    }
+    std::fs::write(path, bytes).unwrap();
+}
+
+fn cut(path: &Path, part: f64) {
+    let bytes = std::fs::read(path).unwrap();
+    std::fs::write(path, &bytes[..(bytes.len() as f64 * part) as usize]).unwrap();
+}
+
+/// The first trap: a damaged picture is replaced by its neighbour, or left out.
+#[test]
+fn a_damaged_frame_is_named_held_or_skipped() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    for (name, arguments) in [
+        ("png.mov", "-c:v png"),
+        ("ffv1.mkv", "-c:v ffv1 -level 3 -slicecrc 1 -g 1"),
+        ("mjpeg.mov", "-c:v mjpeg -pix_fmt yuvj420p"),
+        ("prores.mov", "-c:v prores_ks"),
+    ] {
+        let path = folder.path().join(name);
+        run(&format!("{} {arguments}", moving(128, 64, "25", 50)), &path);
+        let whole = frames(&ffmpeg, &path, ReadOptions::default()).unwrap();
+        assert_eq!(whole.len(), 50, "{name}");
+        damage(&path, 25);
+
+        let error = frames(&ffmpeg, &path, with(Damaged::Error)).unwrap_err();
+        assert!(matches!(error, VideoError::DamagedFrame { frame: 25, .. }), "{name}: {error}");
+        let held = frames(&ffmpeg, &path, with(Damaged::Hold)).unwrap();
+        assert_eq!(held.len(), 50, "{name}");
+        assert_eq!(held[25].condition, FrameCondition::Held, "{name}");
+        assert_eq!((held[25].index, held[25].time), (25, whole[25].time), "{name}");
+        assert!(held[25].image == whole[24].image, "{name}");
+        assert!(held[26..] == whole[26..] && held[..25] == whole[..25], "{name}");
+        let skipped = frames(&ffmpeg, &path, with(Damaged::Skip)).unwrap();
+        assert!(skipped[..25] == whole[..25] && skipped[25..] == whole[26..], "{name}");
+
+        // Frames before and behind it are whole.
+        assert!(frames(&ffmpeg, &path, of(0, 20)).unwrap() == whole[..21], "{name}");
+        assert!(frames(&ffmpeg, &path, of(30, 49)).unwrap() == whole[30..], "{name}");
+    }
+}
+
+/// Faults are told with their reason.
+#[test]
+fn faults_are_listed() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.mov");
+    run(&format!("{} -c:v png", moving(128, 64, "25", 20)), &path);
+    // The first, two in a row, and the last.
+    [0, 7, 8, 19].map(|number| damage(&path, number));
+    let mut reader = VideoReader::open(&ffmpeg, &ffmpeg.probe(&path).unwrap(), with(Damaged::Hold)).unwrap();
+    let mut found = Vec::new();
+    while let Some(frame) = reader.next_frame().unwrap() {
+        found.push(frame);
+    }
+    assert_eq!(found.iter().map(|frame| frame.index).collect::<Vec<_>>(), (0..20).collect::<Vec<_>>());
+    assert!(found[0].image == found[1].image && found[8].image == found[6].image && found[19].image == found[18].image);
+    let faults: Vec<(u64, u64)> = reader.faults().iter().map(|fault| (fault.frame, fault.count)).collect();
+    assert_eq!(faults, [(0, 1), (7, 2), (19, 1)]);
+    assert!(reader.faults().iter().all(|fault| !fault.reason.is_empty()));
+}
+
+/// Damaged H.264: the decoder would paint it over.
+#[test]
+fn damage_in_h264_is_named() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.mp4");
+    run(&format!("{} -c:v libx264 -bf 0 -g 10", moving(256, 128, "25", 50)), &path);
+    damage(&path, 30);
+    let error = frames(&ffmpeg, &path, with(Damaged::Error)).unwrap_err();
+    assert!(matches!(error, VideoError::DamagedFrame { frame: 30, .. }), "{error}");
+}
+
+/// The second and the fourth trap: the file ends early, and with it, silently, the video.
+#[test]
+fn a_cut_file_is_refused_and_its_missing_frames_are_named() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    for (name, arguments) in [
+        ("a.mkv", "-c:v ffv1 -g 1"),
+        ("b.mp4", "-c:v libx264 -g 10 -movflags +faststart"),
+        ("c.avi", "-c:v mjpeg -pix_fmt yuvj420p"),
+        ("d.webm", "-c:v libvpx-vp9 -g 10"),
+    ] {
+        let path = folder.path().join(name);
+        run(&format!("{} {arguments}", moving(128, 64, "25", 50)), &path);
+        let whole = frames(&ffmpeg, &path, ReadOptions::default()).unwrap();
+        cut(&path, 0.6);
+        let info = ffmpeg.probe(&path).unwrap();
+        assert!(info.cut.is_some(), "{name}");
+        let error = frames(&ffmpeg, &path, ReadOptions::default()).unwrap_err();
+        assert!(matches!(error, VideoError::Cut { .. }), "{name}: {error}");
+        // Frames before the cut can be had, those behind it are named.
+        assert!(frames(&ffmpeg, &path, of(0, 9)).unwrap() == whole[..10], "{name}");
+        let error = frames(&ffmpeg, &path, of(0, 49)).unwrap_err().to_string();
+        assert!(error.contains("frame"), "{name}: {error}");
+        let skipped = frames(&ffmpeg, &path, with(Damaged::Skip)).unwrap();
+        assert!((10..50).contains(&skipped.len()), "{name}: {}", skipped.len());
+        let same = skipped.iter().zip(&whole).take_while(|(a, b)| difference(&a.image, &b.image) == 0.0).count();
+        assert!(same + 1 >= skipped.len(), "{name}: {same} of {}", skipped.len());
+        if info.announced.is_some() {
+            let held = frames(&ffmpeg, &path, with(Damaged::Hold)).unwrap();
+            assert_eq!(held.len(), 50, "{name}");
+            assert_eq!(held[49].condition, FrameCondition::Held, "{name}");
+        }
+    }
+}
+
+/// A file whose description is behind the cut.
+#[test]
+fn a_file_without_its_end_is_called_cut() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.mp4");
+    run(&format!("{} -c:v libx264", moving(128, 64, "25", 50)), &path);
+    cut(&path, 0.5);
+    let error = ffmpeg.probe(&path).unwrap_err();
+    assert!(matches!(error, VideoError::Cut { .. }), "{error}");
+}
+
+/// The third trap, of a count: fewer frames than the file announces, though its end is there.
+#[test]
+fn fewer_frames_than_announced_are_an_error() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.mov");
+    run(&format!("{} -c:v png", moving(128, 64, "25", 50)), &path);
+    for number in 40..50 {
+        damage(&path, number);
+    }
+    let told = |ffmpeg: &Ffmpeg| frames(ffmpeg, &path, ReadOptions::default()).unwrap_err().to_string();
+    assert!(told(&ffmpeg).contains("frame 40"), "{}", told(&ffmpeg));
+    assert_eq!(frames(&ffmpeg, &path, with(Damaged::Skip)).unwrap().len(), 40);
+    assert_eq!(frames(&ffmpeg, &path, with(Damaged::Hold)).unwrap().len(), 50);
+}
+
+/// A frame that is there for others alone is not missed: a video that was cut without coding it anew.
+#[test]
+fn a_video_cut_without_coding_is_whole() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let (long, path) = (folder.path().join("long.mp4"), folder.path().join("short.mp4"));
+    run(&format!("{} -c:v libx264 -g 25 -bf 0", moving(128, 64, "25", 100)), &long);
+    run(&format!("-ss 1.4 -i {} -c copy", long.to_str().unwrap()), &path);
+    let found = frames(&ffmpeg, &path, ReadOptions::default()).unwrap();
+    assert!(found.windows(2).all(|pair| pair[1].index == pair[0].index + 1));
+    assert!((60..=65).contains(&found.len()), "{}", found.len());
+}

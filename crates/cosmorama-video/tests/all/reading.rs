@@ -1,0 +1,181 @@
+//! Frames by their numbers.
+
+use cosmorama::raster::{Channels, Depth, Samples};
+use cosmorama_video::{AnnouncedBy, ReadOptions, StreamKind, VideoError, VideoReader};
+
+use crate::common::{ffmpeg, frames, moving, of, raw, run};
+
+#[test]
+fn properties_are_read() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.mp4");
+    let sound = "-f lavfi -i sine=duration=1";
+    run(&format!("{} {sound} -c:v libx264 -c:a aac -metadata title=Sky", moving(64, 32, "30000/1001", 30)), &path);
+    let info = ffmpeg.probe(&path).unwrap();
+    assert_eq!((info.size(), info.codec.as_str(), info.bits, info.has_alpha), ((64, 32), "h264", 8, false));
+    assert_eq!((info.rate.to_string(), info.is_variable), ("30000/1001".to_owned(), false));
+    let announced = info.announced.unwrap();
+    assert_eq!((announced.frames, announced.by), (30, AnnouncedBy::Count));
+    assert_eq!(
+        info.others.iter().map(|other| (other.kind, other.codec.as_str())).collect::<Vec<_>>(),
+        [(StreamKind::Audio, "aac")]
+    );
+    assert!(info.metadata.contains(&("title".to_owned(), "Sky".to_owned())), "{:?}", info.metadata);
+    assert!(info.notes.iter().any(|note| note.contains("no matrix")), "{:?}", info.notes);
+    assert_eq!((info.cut, info.spatial), (None, None));
+}
+
+/// RGB through FFV1 is equal, by both ways of ffmpeg to it.
+#[test]
+fn what_is_stored_without_loss_comes_without_loss() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    for (format, as_raw, channels, depth) in [
+        ("bgr0", "rgb24", Channels::Rgb, Depth::Eight),
+        ("bgra", "rgba", Channels::Rgba, Depth::Eight),
+        ("gbrp16le", "rgb48le", Channels::Rgb, Depth::Sixteen),
+        ("gbrap16le", "rgba64le", Channels::Rgba, Depth::Sixteen),
+        ("gbrp10le", "rgb48le", Channels::Rgb, Depth::Sixteen),
+    ] {
+        let path = folder.path().join(format!("{format}.mkv"));
+        run(&format!("{} -c:v ffv1 -pix_fmt {format}", moving(46, 34, "25", 4)), &path);
+        let expected = raw(&path, as_raw);
+        let found = frames(&ffmpeg, &path, ReadOptions::default()).unwrap();
+        assert_eq!(found.len(), 4);
+        let mut bytes = Vec::new();
+        for frame in &found {
+            assert_eq!((frame.image.channels(), frame.image.depth()), (channels, depth), "{format}");
+            match frame.image.samples() {
+                Samples::U8(samples) => bytes.extend(samples),
+                Samples::U16(samples) => bytes.extend(samples.iter().flat_map(|sample| sample.to_le_bytes())),
+                _ => panic!("floats"),
+            }
+        }
+        assert!(bytes == expected, "{format}");
+    }
+}
+
+/// Ten bits become sixteen by repetition of the upper bits: black stays black, and white white.
+#[test]
+fn ten_bits_are_scaled_exactly() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let (input, path) = (folder.path().join("codes.raw"), folder.path().join("codes.mkv"));
+    let codes: Vec<u16> = (0..1024).collect();
+    let bytes: Vec<u8> = codes.iter().cycle().take(3 * 1024).flat_map(|code| code.to_le_bytes()).collect();
+    std::fs::write(&input, bytes).unwrap();
+    let source = format!("-f rawvideo -pix_fmt gbrp10le -s 32x32 -i {}", input.to_str().unwrap());
+    run(&format!("{source} -c:v ffv1"), &path);
+    let found = frames(&ffmpeg, &path, ReadOptions::default()).unwrap();
+    let Samples::U16(samples) = found[0].image.samples() else { panic!("16 bits") };
+    for (code, pixel) in codes.iter().zip(samples.chunks(3)) {
+        assert_eq!(pixel, [code << 6 | code >> 4; 3], "{code}");
+    }
+}
+
+#[test]
+fn ranges_are_exact() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    // B-frames, key frames far apart, open groups; a clock that does not fit the rate; sound that begins before.
+    for (name, arguments) in [
+        ("a.mp4", "-c:v libx264 -g 40 -bf 3"),
+        ("b.mkv", "-c:v libx264 -g 90 -bf 2 -x264-params open-gop=1"),
+        ("c.mkv", "-c:v ffv1 -g 1"),
+        ("d.ts", "-c:v libx264 -g 50 -bf 2"),
+        ("e.avi", "-c:v mjpeg -q:v 2"),
+    ] {
+        let path = folder.path().join(name);
+        run(&format!("{} {arguments} -pix_fmt yuvj420p -threads 2", moving(64, 32, "30000/1001", 200)), &path);
+        let all = frames(&ffmpeg, &path, ReadOptions::default()).unwrap();
+        assert_eq!(all.iter().map(|frame| frame.index).collect::<Vec<_>>(), (0..200).collect::<Vec<_>>(), "{name}");
+        assert!(all.windows(2).all(|pair| pair[0].time < pair[1].time), "{name}");
+        for (first, last) in [(0, 0), (7, 13), (49, 51), (61, 63), (120, 122), (198, 199)] {
+            let part = frames(&ffmpeg, &path, of(first, last)).unwrap();
+            assert!(part == all[first as usize..=last as usize], "{name} {first} to {last}");
+        }
+    }
+}
+
+#[test]
+fn frames_that_are_not_there_are_named() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.mp4");
+    run(&format!("{} -c:v libx264", moving(64, 32, "25", 50)), &path);
+    for (first, last, asked) in [(50, 60, 50), (0, 50, 50), (49, 70, 70)] {
+        let error = frames(&ffmpeg, &path, of(first, last)).unwrap_err();
+        assert!(matches!(error, VideoError::NoSuchFrame { asked: found, last: 49, .. } if found == asked), "{error}");
+    }
+}
+
+/// A rate that varies: each frame has its own time, and its own number.
+#[test]
+fn times_are_kept_where_the_rate_varies() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    for (name, tick) in [("a.mp4", 90_000), ("b.mkv", 1000)] {
+        let path = folder.path().join(name);
+        // Frame N at N² · 20 ms.
+        let source = "-f lavfi -i testsrc2=size=64x32:rate=50 -frames:v 30 -vf settb=1/1000,setpts=N*N*20";
+        let vary = "-vsync passthrough -enc_time_base 1:1000 -c:v libx264 -bf 2 -video_track_timescale 90000";
+        run(
+            &format!(
+                "{source} {}",
+                if name == "a.mp4" { vary.to_owned() } else { vary.replace(" -video_track_timescale 90000", "") }
+            ),
+            &path,
+        );
+        let info = ffmpeg.probe(&path).unwrap();
+        assert!(info.is_variable, "{name}: {info:?}");
+        let all = frames(&ffmpeg, &path, ReadOptions::default()).unwrap();
+        let first = all[0].time;
+        let times: Vec<i64> = all.iter().map(|frame| frame.time - first).collect();
+        assert_eq!(times, (0..30).map(|n| n * n * 20 * tick / 1000).collect::<Vec<_>>(), "{name}");
+        assert_eq!(ffmpeg.timeline(&info).unwrap().frame_at(0.5), 5, "{name}");
+        for (first, last) in [(0, 2), (3, 4), (20, 29)] {
+            assert!(frames(&ffmpeg, &path, of(first, last)).unwrap() == all[first as usize..=last as usize], "{name}");
+        }
+    }
+}
+
+#[test]
+fn a_frame_larger_than_permitted_is_refused_before_it_is_decoded() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.mkv");
+    run(&format!("{} -c:v ffv1 -pix_fmt yuv420p10le", moving(64, 32, "25", 2)), &path);
+    let info = ffmpeg.probe(&path).unwrap();
+    let options = |memory| ReadOptions { memory, ..ReadOptions::default() };
+    let needed = 64 * 32 * 3 * 2;
+    let error = VideoReader::open(&ffmpeg, &info, options(needed - 1)).unwrap_err().to_string();
+    assert!(error.contains("12288 bytes") && error.contains("64x32"), "{error}");
+    assert!(VideoReader::open(&ffmpeg, &info, options(needed)).is_ok());
+}
+
+#[test]
+fn interlaced_frames_are_refused() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.mkv");
+    run(&format!("{} -vf setfield=tff -c:v ffv1 -field_order tt -flags +ildct", moving(64, 32, "25", 2)), &path);
+    let error = frames(&ffmpeg, &path, ReadOptions::default()).unwrap_err().to_string();
+    assert!(error.contains("interlaced") && error.contains("bwdif"), "{error}");
+}
+
+/// A reader that is dropped leaves no process behind.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_reader_that_is_dropped_ends_its_ffmpeg() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("dropped-reader.mkv");
+    run(&format!("{} -c:v ffv1", moving(640, 320, "25", 100)), &path);
+    let mut reader = VideoReader::open(&ffmpeg, &ffmpeg.probe(&path).unwrap(), ReadOptions::default()).unwrap();
+    reader.next_frame().unwrap().unwrap();
+    let running = || crate::hostile::processes_with(path.to_str().unwrap());
+    assert_eq!(running(), 1);
+    drop(reader);
+    assert_eq!(running(), 0);
+}
