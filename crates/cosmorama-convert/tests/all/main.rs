@@ -3,5 +3,6 @@
 
 mod at_once;
 mod diagnostics;
+mod hostile;
 mod in_memory;
 mod stop;
