@@ -33,7 +33,7 @@ fn attack<T: FromStr<Err: Display> + Display + PartialEq + Debug>(good: &str, wo
 }
 
 #[test]
-fn specs_with_any_of_their_keys() {
+fn hostile_specs_with_any_of_their_keys() {
     for kind in SpecKind::all() {
         let name = kind.name();
         let keys: Vec<String> =
@@ -55,7 +55,7 @@ fn specs_with_any_of_their_keys() {
 }
 
 #[test]
-fn other_values() {
+fn hostile_values_of_other_kinds() {
     attack::<Size>("1966x1436", &["x", "0"], 2000);
     attack::<FrameRanges>("1-3,5,7-20:2", &["-", ",", ":", "x2", "99999999999"], 2000);
     attack::<KernelName>("gaussian:alpha=2,cutoff=1", &["mitchell", "lanczos3", "scale=", "floor="], 2000);

@@ -22,6 +22,9 @@ const NUMBERS: [&str; 18] = [
     "00000000000000000000000000000001",
 ];
 
+/// Letters that mean something in most texts.
+const SIGNS: &[u8] = b"0123456789-.eE[]{}=,:;#\n\t \"'\\/\0\xff";
+
 /// Whole numbers of four bytes at which counts and offsets overflow.
 const WORDS: [u32; 10] = [0, 1, 2, 0x7f, 0xff, 0xffff, 0x7fff_ffff, 0x8000_0000, 0xffff_fffe, 0xffff_ffff];
 
@@ -73,7 +76,7 @@ impl<'a> Mutants<'a> {
         match self.below(11) {
             0 => bytes[at] = self.below(256) as u8,
             1 => bytes[at] ^= 1 << self.below(8),
-            2 => bytes[at] = b"0123456789-.eE[]{}=,:;#\n\t \"'\\/\0\xff"[self.below(33)],
+            2 => bytes[at] = SIGNS[self.below(SIGNS.len())],
             3 => drop(bytes.drain(self.part(&bytes.clone()))),
             4 => {
                 let part = bytes[self.part(bytes)].to_vec();
