@@ -25,6 +25,17 @@ pub enum IoError {
         /// The file to write.
         path: PathBuf,
     },
+    /// The file is of a format that this build of the library leaves out.
+    #[error(
+        "{}: this build has no {format}; it was made without the feature `{}`: use a program that was made with it, or convert the \
+         file", path.display(), format.feature().unwrap_or("default")
+    )]
+    NotBuilt {
+        /// The file to read or to write.
+        path: PathBuf,
+        /// Format of the file.
+        format: Format,
+    },
     /// The first bytes of a file match no known format.
     #[error("{}: {}", path.display(), known(path))]
     UnknownContent {

@@ -11,7 +11,7 @@ const CALIBRATIONS: [&str; 5] = [".yml", ".yaml", ".json", ".xml", ".txt"];
 /// Returns what to type for a value that is not a projection, but something else that the program knows.
 pub(super) fn advice(option: &str, name: &str, typed: &str) -> Option<String> {
     let is_input = option.starts_with("--from");
-    let is_path = Format::from_extension(Path::new(name)).is_ok() || name.contains(['/', '{', '#']);
+    let is_path = Format::of_name(Path::new(name)).is_some() || name.contains(['/', '{', '#']);
     Some(if is_input && ["auto", "unknown", "any", "detect", "none", "default"].contains(&name) {
         format!("leave {option} out: then the projection is found")
     } else if ["same", "input", "keep", "source"].contains(&name) {

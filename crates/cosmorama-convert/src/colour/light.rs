@@ -272,7 +272,7 @@ fn depth(args: &Conversion, headers: &[&Header], target: &Target) -> Result<Dept
         return Ok(asked);
     }
     let known: Vec<_> = target.format.depths().iter().map(ToString::to_string).collect();
-    let holds = |format: &&Format| format.depths().contains(&asked);
+    let holds = |format: &&Format| format.is_built() && format.depths().contains(&asked);
     let other = Format::ALL.iter().filter(holds).flat_map(|format| format.own_extensions().first());
     let other: Vec<String> = other.map(|extension| format!(".{extension}")).collect();
     Err(usage_as(

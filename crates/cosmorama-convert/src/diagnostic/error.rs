@@ -219,7 +219,7 @@ fn of_file(error: &IoError) -> Code {
         | IoError::MissingFrames { .. } => Code::NotFound,
         IoError::FaceIsFolder { .. } => Code::Unreadable,
         IoError::Empty { .. } | IoError::Damaged { .. } | IoError::LeftOut { .. } => Code::Damaged,
-        IoError::UnknownContent { .. } | IoError::Unsupported { .. } => Code::Unsupported,
+        IoError::UnknownContent { .. } | IoError::Unsupported { .. } | IoError::NotBuilt { .. } => Code::Unsupported,
         IoError::TooLarge { .. } => Code::Memory,
         IoError::UnknownExtension { .. } | IoError::CannotHold { .. } => Code::OutputFormat,
         IoError::Write { .. } => Code::Unwritable,
@@ -237,6 +237,7 @@ fn of_file(error: &IoError) -> Code {
 fn of_project(error: &PtoError) -> Code {
     match error {
         PtoError::Open { source, .. } => of_opening(source),
+        PtoError::NotBuilt { .. } => Code::Unsupported,
         _ => Code::Malformed,
     }
 }

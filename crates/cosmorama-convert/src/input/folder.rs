@@ -107,7 +107,7 @@ fn meant(name: &str, path: &Path) -> Option<String> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     let beside = files(folder.unwrap_or(Path::new(".")));
     let names: Vec<&str> = beside.iter().map(String::as_str).collect();
-    let alike = nearest(typed, &names).filter(|name| Format::from_extension(Path::new(name)).is_ok())?;
+    let alike = nearest(typed, &names).filter(|name| Format::of_name(Path::new(name)).is_some())?;
     // Half of the letters alike are enough for a word, not for a name: one letter is another, or they are in another order.
     let sorted = |name: &str| {
         let mut letters: Vec<char> = name.chars().collect();
@@ -168,7 +168,7 @@ fn advice(folder: &Path) -> String {
     if !sequences.is_empty() {
         return format!("for the frames in it, write {}", names(&sequences));
     }
-    files.retain(|name| Format::from_extension(Path::new(name)).is_ok());
+    files.retain(|name| Format::of_name(Path::new(name)).is_some());
     match &files[..] {
         [] => format!(
             "no image is in it; write which file, as in {} for the faces of a cube, {} for frames",

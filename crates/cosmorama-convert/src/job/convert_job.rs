@@ -89,7 +89,7 @@ pub(super) const DECODED_PART: u64 = 8;
 /// Returns the source of a conversion's files, which knows the parts and channels to read.
 fn chosen(settings: &Conversion, content: Content) -> Arc<dyn Files> {
     let (part, channels) = (settings.part.clone(), settings.channels.clone());
-    let is_exr = Format::from_extension(Path::new(&settings.output)).is_ok_and(|format| format == Format::Exr);
+    let is_exr = Format::of_name(Path::new(&settings.output)) == Some(Format::Exr);
     let without_picture = content == Content::World && is_exr && settings.light.is_none();
     let choice = Choice { part, channels, without_picture };
     Arc::new(ChosenFiles::new(Arc::clone(&settings.files), choice, settings.video.damaged))

@@ -120,7 +120,7 @@ impl Found {
             return Self::Otherwise(parts);
         }
         let size = |(width, height): &(usize, usize)| format!("{width}x{height}");
-        let format = Format::from_extension(path).unwrap_or(header.format);
+        let format = Format::of_name(path).unwrap_or(header.format);
         let told: Vec<String> = [
             instead(&header.format, &format, ToString::to_string),
             instead(&(header.width, header.height), &target.sheet.size, size),

@@ -14,6 +14,9 @@ use super::decoded_picture::DecodedPicture;
 use crate::source::MemoryBudget;
 use crate::video::{DamagedFrames, FrameName, RawFiles, Videos};
 
+/// Greatest length in bytes of a file that is read whole, which is a camera's path or belongs to one.
+const LONGEST: u64 = 1 << 30;
+
 /// Source of the bytes of inputs: disk, memory, an archive. Inputs are pictures, masks, st maps, calibrations, world
 /// files and Hugin projects. Patterns of frames and faces are always searched on disk.
 pub trait Files: Debug + Send + Sync {
@@ -223,9 +226,14 @@ impl Access<'_> {
         PtoProject::read_from(self.open(path).map_err(open)?, path)
     }
 
-    /// Reads all bytes of a file.
+    /// Reads all bytes of a file other than a picture, up to [`LONGEST`].
     pub(crate) fn read_bytes(self, path: &Path) -> io::Result<Vec<u8>> {
-        self.read_most(path, u64::MAX)
+        let bytes = self.read_most(path, LONGEST + 1)?;
+        if bytes.len() as u64 > LONGEST {
+            let reason = format!("more than {LONGEST} bytes, which no path of a camera has");
+            return Err(io::Error::new(io::ErrorKind::FileTooLarge, reason));
+        }
+        Ok(bytes)
     }
 
     /// Reads so many bytes of a file, or all if it has fewer.

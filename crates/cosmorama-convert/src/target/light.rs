@@ -35,7 +35,7 @@ pub(crate) fn of_light(geometry: GeometrySettings, output: &str, levels: usize) 
 
 /// Returns whether a map of light is a cube: as asked for, or else if the output has a name for each face or is a file of cubes.
 pub fn is_cube_of_light(to: Option<&Spec>, output: &str) -> bool {
-    let is_cube_file = || Format::from_extension(Path::new(output)).is_ok_and(Format::is_cube_map);
+    let is_cube_file = || Format::of_name(Path::new(output)).is_some_and(Format::is_cube_map);
     match to {
         Some(spec) => matches!(spec.shape, Shape::Cube(_)),
         None => is_cube_file() || FacePattern::parse(output).is_some(),

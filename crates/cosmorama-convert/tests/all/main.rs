@@ -3,6 +3,7 @@
 
 mod at_once;
 mod diagnostics;
+mod hostile;
 mod in_memory;
 mod stop;
 #[cfg(feature = "video")]

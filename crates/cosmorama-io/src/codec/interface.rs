@@ -4,10 +4,10 @@ use std::io::{BufRead, Seek, SeekFrom, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-use cosmorama::raster::{EncodedImage, FramePool, Samples};
+use cosmorama::raster::{Depth, EncodedImage, FramePool, Samples};
 
 use crate::header::{Header, ImageFile};
-use crate::{Choice, Format, IoError, Limits, Plane, WriteOptions};
+use crate::{Choice, Format, IoError, LayeredImage, Limits, Plane, WriteOptions};
 
 /// Bytes of a file from any source: a file on disk, a slice of memory, or standard input read into memory.
 ///
@@ -27,11 +27,18 @@ pub(crate) type Source<'a> = &'a mut (dyn ReadSeek + 'a);
 /// Writer for an encoder, positioned where the file's first byte goes.
 pub(crate) type Sink<'a> = &'a mut (dyn WriteSeek + 'a);
 
+/// Named planes of numbers, which are no picture.
+pub(crate) struct NumberPlanes<'a> {
+    /// Columns and rows of each.
+    pub(crate) size: (usize, usize),
+    /// Name and numbers of each, row by row.
+    pub(crate) planes: Vec<(&'a str, Vec<f32>)>,
+    /// Halves or floats.
+    pub(crate) depth: Depth,
+}
+
 /// Decoder and encoder of a file format. `path` is the file's name in messages.
 pub(crate) trait Codec: Sync {
-    /// Returns whether the first bytes of a file, `start`, identify this format.
-    fn recognises(&self, start: &[u8]) -> bool;
-
     /// Reads the header of a file, without its pixels.
     fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError>;
 
@@ -60,6 +67,39 @@ pub(crate) trait Codec: Sync {
             [image] => self.encode(path, output, image, options),
             _ => Err(IoError::write(path, "the format holds one picture")),
         }
+    }
+
+    /// Writes a picture that is no world. Called only for KTX 2, whose worlds are cubes.
+    fn encode_flat(
+        &self,
+        path: &Path,
+        output: Sink<'_>,
+        image: &EncodedImage,
+        options: &WriteOptions,
+    ) -> Result<(), IoError> {
+        self.encode(path, output, image, options)
+    }
+
+    /// Writes a picture with named channels beside it, or such channels alone. Called only for OpenEXR.
+    fn encode_layers(
+        &self,
+        path: &Path,
+        _output: Sink<'_>,
+        _layered: LayeredImage<'_>,
+        _options: &WriteOptions,
+    ) -> Result<(), IoError> {
+        Err(IoError::write(path, "the format names no channels"))
+    }
+
+    /// Writes named planes of numbers. Called only for OpenEXR.
+    fn encode_planes(
+        &self,
+        path: &Path,
+        _output: Sink<'_>,
+        _planes: NumberPlanes<'_>,
+        _options: &WriteOptions,
+    ) -> Result<(), IoError> {
+        Err(IoError::write(path, "the format names no channels"))
     }
 
     /// Reads the header of a file for the picture that a choice selects.

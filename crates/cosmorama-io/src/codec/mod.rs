@@ -1,47 +1,65 @@
 //! Codecs: a file or a folder for each format, and the table that finds the codec of a format.
 //!
-//! To add a format: a variant of [`Format`] with its properties, a type that implements [`Codec`], and its line in [`codec`].
+//! To add a format: a variant of [`Format`] with its properties, a type that implements [`Codec`], its line in [`built`], and its
+//! mark in [`Format::is_start`].
+//!
+//! A format whose decoder is heavy has a feature of the manifest. Here, and nowhere else, features take codecs out.
 
 pub(crate) mod behind;
+#[cfg(feature = "exr")]
 mod exr;
 mod interface;
+#[cfg(feature = "jpeg")]
 mod jpeg;
 mod png;
 mod radiance;
 #[cfg(feature = "diagrams")]
 pub mod svg;
+#[cfg(feature = "textures")]
 mod texture;
 mod tga;
+#[cfg(feature = "tiff")]
 mod tiff;
 mod write_options;
 
 use std::io::Read;
 use std::path::Path;
 
-pub(crate) use exr::{write_layers, write_planes};
 pub use interface::ReadSeek;
 pub use interface::is_contained;
-pub(crate) use interface::{Codec, Source, contained, is_beside_others};
-pub(crate) use texture::write_flat;
+pub(crate) use interface::{Codec, NumberPlanes, Source, contained, is_beside_others};
 pub use write_options::{Compression, WriteOptions};
 
 use crate::IoError;
 use crate::header::Format;
 
-/// Returns the codec of a format.
-pub(crate) fn codec(format: Format) -> &'static dyn Codec {
+/// Returns the codec of a format; `None` if this build has none.
+fn built(format: Format) -> Option<&'static dyn Codec> {
     match format {
-        Format::Png => &png::Png,
-        Format::Jpeg => &jpeg::Jpeg,
-        Format::Tiff => &tiff::Tiff,
-        Format::Tga => &tga::Tga,
-        Format::Hdr => &radiance::Hdr,
-        Format::Exr => &exr::Exr,
-        Format::Ktx2 => &texture::Ktx2,
-        Format::Ktx => &texture::Ktx,
-        Format::Dds => &texture::Dds,
-        Format::Video | Format::Pfm => &interface::Elsewhere,
+        Format::Png => Some(&png::Png),
+        Format::Tga => Some(&tga::Tga),
+        Format::Hdr => Some(&radiance::Hdr),
+        #[cfg(feature = "jpeg")]
+        Format::Jpeg => Some(&jpeg::Jpeg),
+        #[cfg(feature = "tiff")]
+        Format::Tiff => Some(&tiff::Tiff),
+        #[cfg(feature = "exr")]
+        Format::Exr => Some(&exr::Exr),
+        #[cfg(feature = "textures")]
+        Format::Ktx2 => Some(&texture::Ktx2),
+        #[cfg(feature = "textures")]
+        Format::Ktx => Some(&texture::Ktx),
+        #[cfg(feature = "textures")]
+        Format::Dds => Some(&texture::Dds),
+        Format::Video | Format::Pfm => Some(&interface::Elsewhere),
+        #[allow(unreachable_patterns, reason = "with all features, no format is left")]
+        _ => None,
     }
+}
+
+/// Returns the codec of a file's format.
+pub(crate) fn codec(path: &Path, format: Format) -> Result<&'static dyn Codec, IoError> {
+    built(format).ok_or_else(|| IoError::NotBuilt { path: path.to_owned(), format })
 }
 
 /// Number of bytes at the start of a file that identify its format.
@@ -59,19 +77,78 @@ pub(crate) fn recognise(path: &Path, source: Source<'_>) -> Result<Format, IoErr
     if start.is_empty() {
         return Err(IoError::Empty { path: path.to_owned() });
     }
-    let by_mark = Format::ALL.into_iter().find(|format| codec(*format).recognises(&start));
+    let by_mark = Format::ALL.into_iter().find(|format| format.is_start(&start));
     // TGA files begin with no mark, so that only the name tells.
-    let by_name = || Format::from_extension(path).ok().filter(|format| *format == Format::Tga);
+    let by_name = || Format::of_name(path).filter(|format| *format == Format::Tga);
     by_mark.or_else(by_name).ok_or_else(|| IoError::UnknownContent { path: path.to_owned() })
 }
 
 impl Format {
-    /// Returns the format for a file name's extension.
+    /// Returns the format in which a file is written, which its name's extension chooses.
     ///
     /// # Errors
-    /// When the extension is unknown or missing.
+    /// When the extension is unknown or missing, or this build lacks the format.
     pub fn from_extension(path: &Path) -> Result<Self, IoError> {
-        let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
-        Self::of_extension(extension).ok_or_else(|| IoError::UnknownExtension { path: path.to_owned() })
+        let format = Self::of_name(path).ok_or_else(|| IoError::UnknownExtension { path: path.to_owned() })?;
+        codec(path, format).map(|_| format)
+    }
+
+    /// Returns the format that a file name's extension says, whether this build has it or not.
+    pub fn of_name(path: &Path) -> Option<Self> {
+        Self::of_extension(path.extension()?.to_str()?)
+    }
+
+    /// Returns whether this build reads and writes the format. Those with a [`feature`](Self::feature) can be left out.
+    pub fn is_built(self) -> bool {
+        built(self).is_some()
+    }
+
+    /// Returns whether the first bytes of a file identify this format.
+    fn is_start(self, start: &[u8]) -> bool {
+        match self {
+            Self::Png => start.starts_with(b"\x89PNG"),
+            Self::Jpeg => start.starts_with(&[0xff, 0xd8, 0xff]),
+            Self::Tiff => matches!(start, [b'I', b'I', 42 | 43, 0, ..] | [b'M', b'M', 0, 42 | 43, ..]),
+            Self::Hdr => start.starts_with(b"#?"),
+            Self::Exr => start.starts_with(&[0x76, 0x2f, 0x31, 0x01]),
+            Self::Ktx2 => start.starts_with(b"\xabKTX 20\xbb"),
+            Self::Ktx => start.starts_with(b"\xabKTX 11\xbb"),
+            Self::Dds => start.starts_with(b"DDS "),
+            // TGA files begin with no mark.
+            Self::Tga => false,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Checks both kinds of build: one without a feature names it, for files to read and to write, and one with it does neither.
+    #[test]
+    fn a_format_that_is_left_out_names_its_feature() {
+        let starts: [(Format, &[u8]); 6] = [
+            (Format::Jpeg, &[0xff, 0xd8, 0xff, 0xe0]),
+            (Format::Tiff, b"II\x2a\0\x08\0\0\0"),
+            (Format::Exr, b"\x76\x2f\x31\x01\x02\0\0\0"),
+            (Format::Ktx2, b"\xabKTX 20\xbb\r\n\x1a\n"),
+            (Format::Ktx, b"\xabKTX 11\xbb\r\n\x1a\n"),
+            (Format::Dds, b"DDS \x7c\0\0\0"),
+        ];
+        for (format, start) in starts {
+            let feature = format.feature().expect("its decoder is heavy");
+            let told = format!("this build has no {format}; it was made without the feature `{feature}`");
+            let read = crate::probe_from(std::io::Cursor::new(start), "a.bin").expect_err("a start alone").to_string();
+            let name = format!("a.{}", format.own_extensions().first().unwrap_or(&"ktx"));
+            let named = Format::from_extension(Path::new(&name));
+            if format.is_built() {
+                assert!(!read.contains("feature") && named.is_ok(), "{read}");
+            } else {
+                let written = named.expect_err("left out").to_string();
+                assert!(read.contains(&told) && written.contains(&told), "{read}; {written}");
+                assert!(!Format::extensions().split(", ").any(|extension| name.ends_with(&format!(".{extension}"))));
+            }
+        }
+        assert!([Format::Png, Format::Tga, Format::Hdr].into_iter().all(Format::is_built));
     }
 }

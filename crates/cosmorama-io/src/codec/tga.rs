@@ -17,11 +17,6 @@ const PIXELS_PER_BYTE: u64 = 64;
 pub(crate) struct Tga;
 
 impl Codec for Tga {
-    fn recognises(&self, _: &[u8]) -> bool {
-        // TGA files do not begin with a mark.
-        false
-    }
-
     fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
         let header = header(path, &decoder(path, &mut *source)?)?;
         held(path, source, header, PIXELS_PER_BYTE)

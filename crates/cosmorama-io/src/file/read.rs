@@ -43,7 +43,7 @@ pub fn probe(path: impl AsRef<Path>) -> Result<Header, IoError> {
 pub fn probe_from(mut source: impl BufRead + Seek, name: impl AsRef<Path>) -> Result<Header, IoError> {
     let name = name.as_ref();
     let format = recognise(name, &mut source)?;
-    Ok(decoded(name, format, || codec(format).probe(name, &mut source))?.upright())
+    Ok(decoded(name, format, || codec(name, format)?.probe(name, &mut source))?.upright())
 }
 
 /// Reads a file. [`ImageFile::to_light`] decodes it to linear light.
@@ -104,7 +104,7 @@ pub fn read_in(
 ) -> Result<ImageFile, IoError> {
     let name = name.as_ref();
     let format = recognise(name, &mut source)?;
-    Ok(decoded(name, format, || codec(format).decode(name, &mut source, limits, pool))?.upright(pool))
+    Ok(decoded(name, format, || codec(name, format)?.decode(name, &mut source, limits, pool))?.upright(pool))
 }
 
 /// Reads the header of a file like [`probe_from`], for the picture that a choice selects.
@@ -118,7 +118,7 @@ pub fn probe_chosen(
 ) -> Result<Header, IoError> {
     let name = name.as_ref();
     let format = recognise(name, &mut source)?;
-    Ok(decoded(name, format, || codec(format).probe_chosen(name, &mut source, choice))?.upright())
+    Ok(decoded(name, format, || codec(name, format)?.probe_chosen(name, &mut source, choice))?.upright())
 }
 
 /// Reads the picture of a file that a choice selects, like [`read_in`].
@@ -133,7 +133,8 @@ pub fn read_chosen(
 ) -> Result<ImageFile, IoError> {
     let name = name.as_ref();
     let format = recognise(name, &mut source)?;
-    Ok(decoded(name, format, || codec(format).decode_chosen(name, &mut source, memory, choice))?.upright(memory.1))
+    Ok(decoded(name, format, || codec(name, format)?.decode_chosen(name, &mut source, memory, choice))?
+        .upright(memory.1))
 }
 
 /// Reads channels by their full names, each in its own sample type, from the part whose picture a choice selects. Their
@@ -149,7 +150,7 @@ pub fn read_layers(
 ) -> Result<Vec<Plane>, IoError> {
     let name = name.as_ref();
     let format = recognise(name, &mut source)?;
-    decoded(name, format, || codec(format).decode_planes(name, &mut source, limits, (choice, channels)))
+    decoded(name, format, || codec(name, format)?.decode_planes(name, &mut source, limits, (choice, channels)))
 }
 
 /// Calls the decoder of a file. If it panics, the file is damaged in a way that the decoder does not expect.

@@ -42,7 +42,7 @@ pub fn probe_pairs(path: impl AsRef<Path>) -> Result<Header, IoError> {
 pub fn probe_pairs_from(mut source: impl BufRead + Seek, name: impl AsRef<Path>) -> Result<Header, IoError> {
     let name = name.as_ref();
     let format = recognise(name, &mut source)?;
-    Ok(decoded(name, format, || codec(format).probe_pairs(name, &mut source))?.upright())
+    Ok(decoded(name, format, || codec(name, format)?.probe_pairs(name, &mut source))?.upright())
 }
 
 /// Reads the two channels of an st map without decoding them. In OpenEXR files these are R and G, u and v, s and t, or
@@ -66,7 +66,7 @@ pub fn read_pairs_from(
 ) -> Result<StPairs, IoError> {
     let path = name.as_ref();
     let format = recognise(path, &mut source)?;
-    let file = decoded(path, format, || codec(format).decode_pairs(path, &mut source, limits))?;
+    let file = decoded(path, format, || codec(path, format)?.decode_pairs(path, &mut source, limits))?;
     let file = file.upright(&FramePool::default());
     let count = file.image.channels().count();
     // Grey counts as one channel, with or without alpha, except in OpenEXR, where two channels make a pair.

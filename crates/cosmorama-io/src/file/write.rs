@@ -3,7 +3,7 @@ use std::path::Path;
 
 use cosmorama::raster::{Depth, EncodedImage};
 
-use crate::codec::{codec, write_flat as encode_flat, write_layers as encode_layers, write_planes as encode_planes};
+use crate::codec::{NumberPlanes, codec};
 use crate::header::Format;
 use crate::pending::{Hidden, Pending};
 use crate::{IoError, LayeredImage, WriteOptions};
@@ -51,7 +51,7 @@ pub fn write_flat(path: impl AsRef<Path>, image: &EncodedImage, options: &WriteO
         return write(path, image, options);
     }
     let mut pending = Pending::create(path, &options.unfinished)?;
-    encode_flat(path, pending.writer(), image, options)?;
+    codec(path, Format::Ktx2)?.encode_flat(path, pending.writer(), image, options)?;
     pending.finish()
 }
 
@@ -74,8 +74,9 @@ pub fn write_to(
     image: &EncodedImage,
     options: &WriteOptions,
 ) -> Result<(), IoError> {
-    check_can_hold(name.as_ref(), format, image)?;
-    codec(format).encode(name.as_ref(), &mut output, image, options)
+    let name = name.as_ref();
+    check_can_hold(name, format, image)?;
+    codec(name, format)?.encode(name, &mut output, image, options)
 }
 
 fn hidden(path: &Path, levels: &[EncodedImage], options: &WriteOptions) -> Result<Hidden, IoError> {
@@ -91,7 +92,7 @@ fn hidden(path: &Path, levels: &[EncodedImage], options: &WriteOptions) -> Resul
         });
     }
     let mut pending = Pending::create(path, &options.unfinished)?;
-    codec(format).encode_levels(path, pending.writer(), levels, options)?;
+    codec(path, format)?.encode_levels(path, pending.writer(), levels, options)?;
     pending.close()
 }
 
@@ -120,7 +121,7 @@ pub fn write_planes(
         return cannot_hold(format!("{} numbers in {name}", plane.len()), format!("{}x{}", size.0, size.1));
     }
     let mut pending = Pending::create(path, &options.unfinished)?;
-    encode_planes(path, pending.writer(), size, planes, depth, options)?;
+    codec(path, format)?.encode_planes(path, pending.writer(), NumberPlanes { size, planes, depth }, options)?;
     pending.finish()
 }
 
@@ -168,7 +169,7 @@ pub fn write_layers(path: impl AsRef<Path>, layered: LayeredImage<'_>, options: 
         return cannot_hold(format!("{} samples in {}", plane.samples.len(), plane.name), format!("{width}x{height}"));
     }
     let mut pending = Pending::create(path, &options.unfinished)?;
-    encode_layers(path, pending.writer(), layered, options)?;
+    codec(path, format)?.encode_layers(path, pending.writer(), layered, options)?;
     pending.finish()
 }
 

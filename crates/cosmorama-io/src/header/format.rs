@@ -48,6 +48,8 @@ enum HeldPrimaries {
 struct Properties {
     /// Name in messages.
     name: &'static str,
+    /// Feature of the manifest without which a build lacks the format.
+    feature: Option<&'static str>,
     /// Extensions of files that are written, in lower case.
     extensions: &'static [&'static str],
     depths: &'static [Depth],
@@ -66,6 +68,7 @@ impl Properties {
     /// Properties that most formats share: 8 bits, any channels, no metadata.
     const PLAIN: Self = Self {
         name: "",
+        feature: None,
         extensions: &[],
         depths: &[Depth::Eight],
         channels: &Channels::ALL,
@@ -81,6 +84,7 @@ impl Properties {
 
     /// Properties that cube map textures share: the depths and channels that every graphics card supports.
     const TEXTURE: Self = Self {
+        feature: Some("textures"),
         depths: &[Depth::Eight, Depth::Half, Depth::Float],
         channels: &[Channels::Rgba],
         is_cube_map: true,
@@ -101,6 +105,7 @@ impl Properties {
 
     const JPEG: Self = Self {
         name: "JPEG",
+        feature: Some("jpeg"),
         extensions: &["jpg", "jpeg"],
         channels: &[Channels::Grey, Channels::Rgb],
         primaries: HeldPrimaries::Any,
@@ -112,6 +117,7 @@ impl Properties {
 
     const TIFF: Self = Self {
         name: "TIFF",
+        feature: Some("tiff"),
         extensions: &["tif", "tiff"],
         depths: &Depth::ALL,
         primaries: HeldPrimaries::Any,
@@ -140,6 +146,7 @@ impl Properties {
 
     const EXR: Self = Self {
         name: "OpenEXR",
+        feature: Some("exr"),
         extensions: &["exr"],
         depths: &[Depth::Half, Depth::Float],
         primaries: HeldPrimaries::Any,
@@ -198,10 +205,16 @@ impl Format {
         Self::ALL.into_iter().find(|format| format.properties().extensions.contains(&&*extension))
     }
 
-    /// Lists every extension that can be written, for messages.
+    /// Lists every extension that this build can write, for messages.
     pub fn extensions() -> String {
-        let all: Vec<_> = Self::ALL.iter().flat_map(|format| format.properties().extensions).copied().collect();
+        let built = Self::ALL.into_iter().filter(|format| format.is_built());
+        let all: Vec<_> = built.flat_map(|format| format.properties().extensions).copied().collect();
         all.join(", ")
+    }
+
+    /// Returns the feature of the manifest without which a build lacks the format; none for formats that every build has.
+    pub const fn feature(self) -> Option<&'static str> {
+        self.properties().feature
     }
 
     /// Returns the extensions of files that are written; none for a format that is only read.

@@ -15,6 +15,15 @@ pub enum PtoError {
         /// Error of the operating system.
         source: io::Error,
     },
+    /// This build of the library reads no projects.
+    #[error(
+        "{}: this build reads no Hugin projects; it was made without the feature `hugin`: use a program that was made with it, or \
+         list the views in a world file (.toml)", path.display()
+    )]
+    NotBuilt {
+        /// Path of the project.
+        path: PathBuf,
+    },
     /// A line cannot be understood, or asks for something unsupported.
     #[error("{}, line {line}: {reason}", path.display())]
     Line {

@@ -90,9 +90,13 @@ impl PtoProject {
 
     /// Reads a project in memory, or from any other reader. `name` is the name in messages.
     ///
-    /// # Errors When the project cannot be read, a line cannot be understood, or it asks for something unsupported; the
-    /// message names it.
+    /// # Errors
+    /// When the project cannot be read, a line cannot be understood, or it asks for something unsupported; the message
+    /// names it.
     pub fn read_from(source: impl Read, name: &Path) -> Result<Self, PtoError> {
+        if !cfg!(feature = "hugin") {
+            return Err(PtoError::NotBuilt { path: name.to_owned() });
+        }
         let open = |source| PtoError::Open { path: name.to_owned(), source };
         let project = |reason: &str| PtoError::Project { path: name.to_owned(), reason: reason.to_owned() };
         let mut bytes = Vec::new();

@@ -47,7 +47,7 @@ impl FoundFrames {
         let Ok(entries) = read.read_dir() else { return Vec::new() };
         let mut numbers: BTreeMap<Around, Vec<String>> = BTreeMap::new();
         for name in entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok()) {
-            if Format::from_extension(Path::new(&name)).is_ok() {
+            if Format::of_name(Path::new(&name)).is_some() {
                 for digits in runs_of_digits(&name) {
                     let around = (name[..digits.start].to_owned(), name[digits.end..].to_owned());
                     numbers.entry(around).or_default().push(name[digits].to_owned());

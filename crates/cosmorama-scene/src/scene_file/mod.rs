@@ -123,12 +123,18 @@ impl PictureReader for Unread {
 const MOST_OBJECTS: usize = 100_000;
 
 impl SceneFile {
+    /// Greatest length of a scene file in bytes: that of all the things that one may have.
+    pub const LONGEST: usize = 16 << 20;
+
     /// Reads a scene file's text. Names of files in it are relative to its own folder.
     ///
     /// # Errors
-    /// When it is no TOML, has an unknown key, or one of its things has a material or world that it does not have.
+    /// When it is longer than [`LONGEST`](Self::LONGEST), is no TOML, has an unknown key, or one of its things has a material or world that it does not have.
     pub fn parse(path: impl AsRef<Path>, text: &str) -> Result<Self, SceneFileError> {
         let source = Source { path: path.as_ref().to_owned(), text: text.to_owned() };
+        if text.len() > Self::LONGEST {
+            return Err(source.error(None, format!("more than {} bytes, which no scene file is", Self::LONGEST)));
+        }
         let written: Written = toml::from_str(text).map_err(|error| source.malformed(&error))?;
         if written.object.is_empty() {
             return Err(source.error(None, "there is no [[object]] in it; one is shape = \"sphere\" and a material"));

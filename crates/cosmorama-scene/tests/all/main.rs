@@ -1,6 +1,7 @@
 //! Pictures of things against sums of many samples.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop where it stands")]
 
+mod hostile;
 mod meshes;
 mod models;
 mod occlusion;

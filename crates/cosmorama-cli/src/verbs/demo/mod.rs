@@ -63,7 +63,7 @@ fn outputs(folder: &Path, faces: &Faces) -> Vec<PathBuf> {
 
 fn draw_unfolded(folder: &Path, faces: &Faces, console: &Console) -> Result<()> {
     let start = Instant::now();
-    let [vector, raster] = diagram::save(folder, UNFOLDED, &faces.unfolded()?, &console.unfinished)?;
-    tell_made(console, &vector, "the unfolded cube with the frame's field of view", start)?;
-    tell_made(console, &raster, "the same as pixels", start)
+    let drawn = diagram::save(folder, UNFOLDED, &faces.unfolded()?, &console.unfinished)?;
+    let about = ["the unfolded cube with the frame's field of view", "the same as pixels"];
+    drawn.iter().zip(about).try_for_each(|(file, about)| tell_made(console, file, about, start))
 }

@@ -70,7 +70,7 @@ pub(super) fn run(mut args: ExplainArgs, console: &mut Console) -> Result<ExitCo
     }
     if let Some(path) = &path {
         text += &path_text(path, has_input);
-        let files = output.as_deref().map_or_else(Vec::new, |folder| diagram::files(folder, PATH_DIAGRAM).to_vec());
+        let files = output.as_deref().map_or_else(Vec::new, |folder| diagram::files(folder, PATH_DIAGRAM));
         if let Some(folder) = &output {
             let svg = Figures::path(&worlds[0], &path.views);
             drawn.extend(diagram::draw(folder, PATH_DIAGRAM, &svg, &console.unfinished)?);

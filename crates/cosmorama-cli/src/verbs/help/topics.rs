@@ -95,7 +95,7 @@ fn names(heading: &str, names: &[(&str, &str)]) -> String {
 fn formats() -> String {
     let mut text =
         "The extension of an output chooses its format, and inputs are known by their content:\n\n".to_owned();
-    for format in Format::ALL {
+    for format in Format::ALL.into_iter().filter(|format| format.is_built()) {
         let depths: Vec<&str> = format.depths().iter().map(|depth| DepthName(*depth).name()).collect();
         let extensions = format.own_extensions().join(", ");
         let name = format.to_string();

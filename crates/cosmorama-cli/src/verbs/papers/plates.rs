@@ -59,8 +59,9 @@ pub(in crate::verbs) fn run(PlatesArgs { size, paper }: &PlatesArgs, console: &C
     }
     for (name, make) in DRAWINGS {
         let start = Instant::now();
-        let [vector, _] = pool.install(|| diagram::save(&paper.dir, name, &make(&plates)?, &console.unfinished))?;
-        tell_made(console, &vector, "a reflection cone on that map, also as PNG", start)?;
+        for file in pool.install(|| diagram::save(&paper.dir, name, &make(&plates)?, &console.unfinished))? {
+            tell_made(console, &file, "a reflection cone on that map", start)?;
+        }
         progress.frame_done(None);
     }
     progress.finish();

@@ -1,5 +1,6 @@
 use std::collections::HashSet;
-use std::io::Cursor;
+use std::fs::File;
+use std::io::{Cursor, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -110,8 +111,10 @@ impl Reader {
 
 fn scene_file(path: &Path, reader: &mut Reader) -> Result<SceneFile> {
     reader.files.insert(real_path(path));
-    let bytes =
-        std::fs::read(path).map_err(|error| anyhow!("cannot open the scene file {}: {error}", path.display()))?;
+    let mut bytes = Vec::new();
+    // One byte more than may be read tells that there are more.
+    let read = File::open(path).and_then(|file| file.take(SceneFile::LONGEST as u64 + 1).read_to_end(&mut bytes));
+    read.map_err(|error| anyhow!("cannot open the scene file {}: {error}", path.display()))?;
     let text = String::from_utf8(bytes)
         .map_err(|_| anyhow!("{}: not a text; expected a scene file in TOML (docs/scenes.md)", path.display()))?;
     Ok(SceneFile::parse(path, &text)?)

@@ -14,20 +14,14 @@ use std::path::Path;
 
 use cosmorama::raster::{EncodedImage, FramePool};
 
-use crate::codec::interface::{Codec, Sink, Source};
+use crate::codec::interface::{Codec, NumberPlanes, Sink, Source};
 use crate::header::{Header, ImageFile};
-use crate::{Choice, IoError, Limits, Plane, WriteOptions};
-
-pub(crate) use writer::{write_layers, write_planes};
+use crate::{Choice, IoError, LayeredImage, Limits, Plane, WriteOptions};
 
 /// Codec of OpenEXR.
 pub(crate) struct Exr;
 
 impl Codec for Exr {
-    fn recognises(&self, start: &[u8]) -> bool {
-        start.starts_with(&reader::MARK)
-    }
-
     fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
         reader::probe(path, source, &Choice::default())
     }
@@ -54,6 +48,26 @@ impl Codec for Exr {
         options: &WriteOptions,
     ) -> Result<(), IoError> {
         writer::write_levels(path, output, levels, options)
+    }
+
+    fn encode_layers(
+        &self,
+        path: &Path,
+        output: Sink<'_>,
+        layered: LayeredImage<'_>,
+        options: &WriteOptions,
+    ) -> Result<(), IoError> {
+        writer::write_layers(path, output, layered, options)
+    }
+
+    fn encode_planes(
+        &self,
+        path: &Path,
+        output: Sink<'_>,
+        planes: NumberPlanes<'_>,
+        options: &WriteOptions,
+    ) -> Result<(), IoError> {
+        writer::write_planes(path, output, planes, options)
     }
 
     fn probe_chosen(&self, path: &Path, source: Source<'_>, choice: &Choice) -> Result<Header, IoError> {

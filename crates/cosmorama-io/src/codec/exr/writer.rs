@@ -13,7 +13,7 @@ use exr::prelude::SmallVec;
 use half::f16;
 
 use super::{attributes, colour};
-use crate::codec::interface::is_beside_others;
+use crate::codec::interface::{NumberPlanes, is_beside_others};
 use crate::{Compression, IoError, LayeredImage, Plane, PlaneSamples, WriteOptions};
 
 /// Writes scan lines of premultiplied light, as the format requires.
@@ -71,7 +71,7 @@ pub(crate) fn write_levels(
 }
 
 /// Writes a picture with named channels beside it.
-pub(crate) fn write_layers(
+pub(super) fn write_layers(
     path: &Path,
     output: impl Write + Seek,
     layered: LayeredImage<'_>,
@@ -112,14 +112,13 @@ fn picture(path: &Path, image: &EncodedImage, names: &[String], options: &WriteO
 }
 
 /// Writes named planes of numbers, as halves or as floats.
-pub(crate) fn write_planes(
+pub(super) fn write_planes(
     path: &Path,
     output: impl Write + Seek,
-    size: (usize, usize),
-    planes: Vec<(&str, Vec<f32>)>,
-    depth: Depth,
+    numbers: NumberPlanes<'_>,
     options: &WriteOptions,
 ) -> Result<(), IoError> {
+    let NumberPlanes { size, planes, depth } = numbers;
     let samples = |numbers: Vec<f32>| match depth {
         Depth::Half => FlatSamples::F16(numbers.into_iter().map(f16::from_f32).collect()),
         _ => FlatSamples::F32(numbers),

@@ -26,10 +26,6 @@ const PIXELS_PER_BYTE: u64 = 8 * 64;
 pub(crate) struct Jpeg;
 
 impl Codec for Jpeg {
-    fn recognises(&self, start: &[u8]) -> bool {
-        start.starts_with(&[0xff, 0xd8, 0xff])
-    }
-
     fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
         let beside = marks::beside(source);
         source.rewind().map_err(|error| IoError::open(path, error))?;

@@ -17,10 +17,6 @@ use crate::{IoError, Limits, WriteOptions};
 pub(crate) struct Png;
 
 impl Codec for Png {
-    fn recognises(&self, start: &[u8]) -> bool {
-        start.starts_with(b"\x89PNG")
-    }
-
     fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
         reader::probe(path, source)
     }

@@ -25,10 +25,6 @@ const MOST_LINES: usize = 1024;
 pub(crate) struct Hdr;
 
 impl Codec for Hdr {
-    fn recognises(&self, start: &[u8]) -> bool {
-        start.starts_with(&MARK)
-    }
-
     fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
         let Preamble { header, .. } = Preamble::read(path, &mut *source)?;
         // A run may fill a row, which has at least one pixel of four bytes.

@@ -22,14 +22,22 @@ pub(super) trait TextureFormat: Sync {
     /// Its name.
     const FORMAT: Format;
 
-    /// Returns whether a file begins so.
-    fn is_start(&self, start: &[u8]) -> bool;
-
     /// Reads the structure of a file, without its texels.
     fn texture(&self, path: &Path, source: Source<'_>) -> Result<CubeTexture, IoError>;
 
     /// Writes six faces with their mip levels.
     fn write(&self, path: &Path, output: Sink<'_>, cube: WrittenCube, metadata: &Metadata) -> Result<(), IoError>;
+
+    /// Writes a flat texture of one level, without faces.
+    fn write_flat(
+        &self,
+        path: &Path,
+        _output: Sink<'_>,
+        _image: &EncodedImage,
+        _options: &WriteOptions,
+    ) -> Result<(), IoError> {
+        Err(IoError::write(path, "a flat texture is written as KTX 2"))
+    }
 }
 
 /// A cube to write.
@@ -43,10 +51,6 @@ pub(super) struct WrittenCube {
 }
 
 impl<T: TextureFormat> Codec for T {
-    fn recognises(&self, start: &[u8]) -> bool {
-        self.is_start(start)
-    }
-
     fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
         let texture = self.texture(path, &mut *source)?;
         let header = texture.header(T::FORMAT);
@@ -65,6 +69,16 @@ impl<T: TextureFormat> Codec for T {
         options: &WriteOptions,
     ) -> Result<(), IoError> {
         self.encode_levels(path, output, std::slice::from_ref(image), options)
+    }
+
+    fn encode_flat(
+        &self,
+        path: &Path,
+        output: Sink<'_>,
+        image: &EncodedImage,
+        options: &WriteOptions,
+    ) -> Result<(), IoError> {
+        self.write_flat(path, output, image, options)
     }
 
     fn encode_levels(

@@ -23,10 +23,6 @@ pub(crate) struct Dds;
 impl TextureFormat for Dds {
     const FORMAT: Format = FORMAT;
 
-    fn is_start(&self, start: &[u8]) -> bool {
-        start.starts_with(MAGIC)
-    }
-
     fn texture(&self, path: &Path, source: Source<'_>) -> Result<CubeTexture, IoError> {
         texture(path, source)
     }

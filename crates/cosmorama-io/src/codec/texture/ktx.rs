@@ -53,10 +53,6 @@ pub(crate) struct Ktx;
 impl TextureFormat for Ktx {
     const FORMAT: Format = FORMAT;
 
-    fn is_start(&self, start: &[u8]) -> bool {
-        start.starts_with(&MAGIC[..8])
-    }
-
     fn texture(&self, path: &Path, source: Source<'_>) -> Result<CubeTexture, IoError> {
         texture(path, source)
     }

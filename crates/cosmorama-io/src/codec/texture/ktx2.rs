@@ -33,10 +33,6 @@ pub(crate) struct Ktx2;
 impl TextureFormat for Ktx2 {
     const FORMAT: Format = FORMAT;
 
-    fn is_start(&self, start: &[u8]) -> bool {
-        start.starts_with(&[0xab, b'K', b'T', b'X', b' ', b'2', b'0', 0xbb])
-    }
-
     fn texture(&self, path: &Path, source: Source<'_>) -> Result<CubeTexture, IoError> {
         texture(path, source)
     }
@@ -47,15 +43,20 @@ impl TextureFormat for Ktx2 {
         let WrittenCube { levels, edge, depth } = cube;
         Written { width: edge, height: edge, faces: 6, depth, levels }.write(path, output, metadata)
     }
+
+    fn write_flat(
+        &self,
+        path: &Path,
+        output: Sink<'_>,
+        image: &EncodedImage,
+        options: &WriteOptions,
+    ) -> Result<(), IoError> {
+        write_flat(path, output, image, options)
+    }
 }
 
 /// Writes a flat texture of one level, without faces: RGBA of 8 bits, halves or floats.
-pub(crate) fn write_flat(
-    path: &Path,
-    output: Sink<'_>,
-    image: &EncodedImage,
-    options: &WriteOptions,
-) -> Result<(), IoError> {
+fn write_flat(path: &Path, output: Sink<'_>, image: &EncodedImage, options: &WriteOptions) -> Result<(), IoError> {
     let (width, height) = (image.width(), image.height());
     let texels: Vec<u8> = match (image.channels(), image.samples()) {
         (Channels::Rgba, Samples::U8(samples)) => samples.clone(),

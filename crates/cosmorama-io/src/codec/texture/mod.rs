@@ -9,4 +9,4 @@ mod texel;
 
 pub(crate) use dds::Dds;
 pub(crate) use ktx::Ktx;
-pub(crate) use ktx2::{Ktx2, write_flat};
+pub(crate) use ktx2::Ktx2;

@@ -17,10 +17,6 @@ use crate::{IoError, Limits, WriteOptions};
 pub(crate) struct Tiff;
 
 impl Codec for Tiff {
-    fn recognises(&self, start: &[u8]) -> bool {
-        matches!(start, [b'I', b'I', 42 | 43, 0, ..] | [b'M', b'M', 0, 42 | 43, ..])
-    }
-
     fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
         reader::probe(path, source)
     }

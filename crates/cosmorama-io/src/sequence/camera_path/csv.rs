@@ -26,6 +26,7 @@ pub(super) fn table<'a>(text: &str, name: &'a Path) -> Result<Table<'a>, CameraP
             table.header = line;
             if record.get(0).is_some_and(|first| first.parse::<f64>().is_err()) {
                 table.names = record.iter().map(str::to_lowercase).collect();
+                table.check_names()?;
                 continue;
             }
             table.names = USUAL.iter().take(record.len().clamp(4, 5)).map(|&name| name.to_owned()).collect();

@@ -27,6 +27,7 @@ fn of_poses(poses: &[Value], table: &mut Table) -> Result<(), CameraPathError> {
         for name in pose.keys() {
             if !table.names.contains(&name.to_lowercase()) {
                 table.names.push(name.to_lowercase());
+                table.check_names()?;
             }
         }
         let value = |name: &String| pose.iter().find(|(key, _)| key.to_lowercase() == *name);
@@ -57,6 +58,7 @@ fn of_columns(columns: &Map<String, Value>, table: &mut Table) -> Result<(), Cam
             row.values.push(Some(value.to_string()));
         }
         table.names.push(name.to_lowercase());
+        table.check_names()?;
     }
     Ok(())
 }

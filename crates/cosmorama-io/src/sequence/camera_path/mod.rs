@@ -108,9 +108,11 @@ impl CameraPath {
         let columns = table.columns(fps, is_of_input)?;
         let mut poses: Vec<PathPose> = Vec::new();
         let mut remarks = Vec::new();
-        for row in &table.rows {
+        for (index, row) in table.rows.iter().enumerate() {
             let pose = columns.pose(table, row)?;
-            if let Some(before) = poses.last() {
+            if let (Some(before), Some(row_before)) =
+                (poses.last(), index.checked_sub(1).map(|index| &table.rows[index]))
+            {
                 check_order(table, row, [before.frame, pose.frame])?;
                 let turn = before.orientation.angle_to(&pose.orientation).degrees();
                 let frames = pose.frame - before.frame;
@@ -124,7 +126,7 @@ impl CameraPath {
                         ),
                     ));
                 }
-                remarks.extend(columns.long_way(table, row, frames));
+                remarks.extend(columns.long_way(table, [row_before, row], frames));
             }
             poses.push(pose);
         }

@@ -62,6 +62,10 @@ const MEASURED: &str = "org_";
 const SMOOTHED: &str = "stab_";
 const MILLISECONDS: &str = "timestamp_ms";
 
+/// Most columns of a table: Gyroflow's have some thirty. Poses that each bring a name of their own would take memory by the square
+/// of their number.
+const MOST_COLUMNS: usize = 256;
+
 /// Columns that a path may have.
 const EXPECTED: &str = "expected frame,yaw,pitch,roll or frame,qw,qx,qy,qz, and fov if it changes; time in seconds may stand for \
                         frame";
@@ -79,6 +83,14 @@ impl Table<'_> {
 
     fn rate_error(&self, reason: &str) -> CameraPathError {
         CameraPathError { is_of_rate: true, ..self.error_at(self.header, reason) }
+    }
+
+    /// Checks that there are not more columns than programs write.
+    pub(super) fn check_names(&self) -> Result<(), CameraPathError> {
+        if self.names.len() <= MOST_COLUMNS {
+            return Ok(());
+        }
+        Err(self.error_at(self.header, &format!("more than {MOST_COLUMNS} columns, which no path has; {EXPECTED}")))
     }
 
     /// Checks that the last row has a value for each column.
@@ -221,10 +233,8 @@ impl Columns {
 
     /// Describes an angle that goes on by more than half a turn over several frames: the shortest way is taken, and may not be
     /// the one that was meant. From a frame to the next it is a wrap.
-    pub(super) fn long_way(&self, table: &Table, row: &Row, frames: f64) -> Option<String> {
+    pub(super) fn long_way(&self, table: &Table, [before, row]: [&Row; 2], frames: f64) -> Option<String> {
         let Turn::Angles(columns) = &self.turn else { return None };
-        let index = table.rows.iter().position(|other| other.place == row.place)?;
-        let before = table.rows.get(index.checked_sub(1)?)?;
         let far = |name: &str, column: Option<usize>| {
             let (a, b) = (table.number(before, column?).ok()?, table.number(row, column?).ok()?);
             (frames > 1.0 && (b - a).abs() > 180.0).then(|| {

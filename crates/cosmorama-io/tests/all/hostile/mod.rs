@@ -1,14 +1,15 @@
 //! Files are hostile: errors, never panics, and no memory for what is only declared.
 
+mod texts;
+
 use std::path::Path;
 use std::time::{Duration, Instant};
 
 use crate::common::picture;
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
-use cosmorama_io::{
-    Calibration, EnvMap, Format, IoError, Limits, Metadata, PtoProject, WriteOptions, probe, read, read_pairs, write,
-};
+use cosmorama_io::{EnvMap, Format, IoError, Limits, Metadata, WriteOptions, probe, read, read_pairs, write};
 use proptest::prelude::*;
+use testkit::Mutants;
 
 const EXTENSIONS: [&str; 9] = ["png", "jpg", "tif", "tga", "hdr", "exr", "ktx2", "dds", "ktx"];
 
@@ -50,11 +51,6 @@ fn truncated_files_are_errors_at_every_length() {
     }
 }
 
-/// Mutants of each format: 600, or as many as `COSMORAMA_MUTANTS` says.
-fn mutants() -> usize {
-    std::env::var("COSMORAMA_MUTANTS").ok().and_then(|count| count.parse().ok()).unwrap_or(600)
-}
-
 /// Longest time that a file of some kilobytes may take.
 const LONGEST: Duration = Duration::from_secs(10);
 
@@ -64,7 +60,7 @@ fn damaged_bytes_never_panic() {
     for extension in EXTENSIONS {
         let bytes = written(extension);
         let mut seed = 1_u32;
-        for mutant in 0..mutants() {
+        for mutant in 0..Mutants::count(600) {
             let start = Instant::now();
             let mut damaged = bytes.clone();
             for _ in 0..3 {
@@ -79,60 +75,18 @@ fn damaged_bytes_never_panic() {
     }
 }
 
-/// Calibrations of each kind and a Hugin project, as programs write them.
-const TEXTS: [(&str, &str); 4] = [
-    (
-        "c.yml",
-        "%YAML:1.0\n---\nimage_width: 320\nimage_height: 240\ncamera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   \
-         dt: d\n   data: [ 200., 0., 160., 0., 200., 120., 0., 0., 1. ]\ndistortion_coefficients: !!opencv-matrix\n   \
-         rows: 1\n   cols: 5\n   dt: d\n   data: [ 0.1, 0., 0., 0., 0. ]\n",
-    ),
-    (
-        "c.json",
-        "{\"K\": [[100, 0, 160], [0, 100, 120], [0, 0, 1]], \"D\": [0.1, 0, 0, 0], \"width\": 320, \"height\": 240}",
-    ),
-    (
-        "c.txt",
-        "#polynomial coefficients for the DIRECT mapping\n5 -100 0 1e-3 2e-6 1e-9\n\n#inverse\n2 100 50\n\n#center\n120 160\n\n#affine\n1 0 0\n\n#size\n240 320\n",
-    ),
-    (
-        "p.pto",
-        "p f2 w400 h200 v360 n\"TIFF\"\ni w320 h240 f0 v60 Ra0 a0.1 b0 c0 d1 e2 y10 p5 r3 n\"a.png\"\nk i0 t0 p\"1 2 30 4 5 60\"\n",
-    ),
-];
-
-fn read_text(path: &Path) -> Option<()> {
-    if path.extension().is_some_and(|extension| extension == "pto") {
-        return PtoProject::read(path).ok().map(drop);
-    }
-    Calibration::read(path).ok().map(drop)
-}
-
+/// Parts that are cut out, doubled and moved, and counts that overflow: textures are little but offsets and lengths.
 #[test]
-fn calibrations_and_projects_never_panic() {
+fn textures_in_disorder_never_panic() {
     let folder = tempfile::tempdir().unwrap();
-    for (name, text) in TEXTS {
-        let path = folder.path().join(name);
-        let read_bytes = |bytes: &[u8]| {
-            std::fs::write(&path, bytes).unwrap();
-            read_text(&path)
-        };
-        assert!(read_bytes(text.as_bytes()).is_some(), "{name} is as programs write it");
-        for length in 0..text.len() {
-            read_bytes(&text.as_bytes()[..length]);
+    for extension in ["ktx2", "dds", "ktx"] {
+        let (good, mut read) = (written(extension), 0);
+        for (mutant, damaged) in Mutants::new(&good, &["KTX", "DX10"], 34).take(Mutants::count(2000)).enumerate() {
+            let start = Instant::now();
+            read += usize::from(read_bytes(folder.path(), extension, &damaged).is_ok());
+            assert!(start.elapsed() < LONGEST, "{extension}, mutant {mutant}: {:?}", start.elapsed());
         }
-        let mut seed = 7_u32;
-        for _ in 0..2000 {
-            let mut damaged = text.as_bytes().to_vec();
-            for _ in 0..3 {
-                seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-                // Digits and signs do more than noise: counts that lie, numbers without end.
-                let with = b"0123456789-.eE[],:#\n \"\xff"[(seed >> 5) as usize % 23];
-                let at = (seed >> 10) as usize % damaged.len();
-                damaged[at] = with;
-            }
-            read_bytes(&damaged);
-        }
+        assert!(read > 0, "some of the damage is in texels: {extension}");
     }
 }
 

@@ -1,0 +1,221 @@
+//! Texts that programs write for us: calibrations, Hugin's projects, paths of cameras; and what files say about how they were made.
+
+use std::io::Cursor;
+use std::path::Path;
+use std::time::Instant;
+
+use cosmorama::raster::{Channels, Depth};
+use cosmorama_io::{
+    Calibration, CameraPath, Format, Limits, Metadata, PathSource, PtoProject, WriteOptions, probe_from, read_from,
+    write_to,
+};
+use testkit::Mutants;
+
+use super::LONGEST;
+use crate::common::picture;
+
+/// A kind of text: a name, an example as programs write it, words that mean something in it, and whether it is read.
+struct Kind {
+    name: &'static str,
+    text: &'static str,
+    words: &'static [&'static str],
+    read: fn(&Path, &[u8]) -> bool,
+}
+
+const KINDS: [Kind; 11] = [
+    Kind {
+        name: "opencv.yml",
+        text: "%YAML:1.0\n---\nimage_width: 320\nimage_height: 240\ncamera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   \
+               dt: d\n   data: [ 200., 0., 160., 0., 200., 120., 0., 0., 1. ]\ndistortion_coefficients: !!opencv-matrix\n   \
+               rows: 1\n   cols: 5\n   dt: d\n   data: [ 0.1, 0., 0., 0., 0. ]\n",
+        words: &["&a ", "*a ", "? ", "- ", "|\n", "<<: *a", "xi: 1", "model: kannala-brandt", "%TAG ! !"],
+        read: calibration,
+    },
+    Kind {
+        name: "ros.yaml",
+        text: "image_width: 640\nimage_height: 480\ncamera_name: narrow\ncamera_matrix:\n  rows: 3\n  cols: 3\n  data: [500, 0, 330, 0, \
+               510, 250, 0, 0, 1]\ndistortion_model: plumb_bob\ndistortion_coefficients:\n  rows: 1\n  cols: 5\n  data: [-0.2, 0.01, \
+               0.0001, 0.0002, 0]\n",
+        words: &["fisheye", "equidistant", "rational_polynomial", "cam1:", "&a ", "*a "],
+        read: calibration,
+    },
+    Kind {
+        name: "camera.json",
+        text: "{\"K\": [[100, 0, 160], [0, 100, 120], [0, 0, 1]], \"D\": [0.1, 0, 0, 0], \"width\": 320, \"height\": 240}",
+        words: &["[", "]", "{", "}", "null", "\"xi\": 2,", "\"model\": \"fisheye\","],
+        read: calibration,
+    },
+    Kind {
+        name: "opencv.xml",
+        text: "<?xml version=\"1.0\"?>\n<opencv_storage>\n<image_width>320</image_width>\n<image_height>240</image_height>\n\
+               <camera_matrix type_id=\"opencv-matrix\"><rows>3</rows><cols>3</cols><dt>d</dt><data>200. 0. 160. 0. 200. 120. 0. \
+               0. 1.</data></camera_matrix>\n<distortion_coefficients type_id=\"opencv-matrix\"><rows>1</rows><cols>5</cols>\
+               <dt>d</dt><data>0.1 0. 0. 0. 0.</data></distortion_coefficients>\n</opencv_storage>\n",
+        words: &["<a>", "</a>", "<!--", "-->", "<![CDATA[", "<!DOCTYPE a [<!ENTITY b \"c\">]>", "&b;", "&#x0;"],
+        read: calibration,
+    },
+    Kind {
+        name: "ocam.txt",
+        text: "#polynomial coefficients for the DIRECT mapping\n5 -100 0 1e-3 2e-6 1e-9\n\n#inverse\n2 100 50\n\n#center\n120 160\n\n\
+               #affine\n1 0 0\n\n#size\n240 320\n",
+        words: &["#", "\n\n", "5 ", "1000000 "],
+        read: calibration,
+    },
+    Kind {
+        name: "two.pto",
+        text: "# hugin project file\np f2 w400 h200 v360 E0 R0 S0,400,0,200 n\"TIFF_m\"\nm g1 i0 m2\n\ni w320 h240 f0 v60 Ra0 Rb0 Eev0 Er1 \
+               Va1 Vb0 a0.1 b0 c0 d1 e2 y10 p5 r3 TrX0 TrY0 TrZ0 j0 n\"a.png\"\ni w320 h240 f0 v=0 a=0 b=0 c=0 d=0 e=0 y-40 p5 r3 \
+               n\"b.png\"\n\nk i0 t0 p\"1 2 30 4 5 60\"\nv a0 y1\nc n0 N1 x1 y2 X3 Y4 t0\n*\n",
+        words: &["\ni ", "\np ", "\nk ", "=0", "=1", "v=1", "n\"", "S1,2,3,4 ", "f3 ", "f19 "],
+        read: project,
+    },
+    Kind {
+        name: "path.csv",
+        text: "# from a tracker\nframe,yaw,pitch,roll,fov\n1,0,0,0,60\n10,30,10,0,60\n25,45,10.5,-3,70\n",
+        words: &["time", "qw,qx,qy,qz", ";", "\t", "\"", "\"\"", "\r\n", "org_pitch", "nan"],
+        read: path,
+    },
+    Kind {
+        name: "quaternions.json",
+        text: "[{\"time\": 0, \"qw\": 1, \"qx\": 0, \"qy\": 0, \"qz\": 0}, {\"time\": 0.5, \"qw\": 0.98, \"qx\": 0, \"qy\": 0.19899748742132, \
+               \"qz\": 0, \"fov\": 60}]",
+        words: &["[", "]", "{", "}", "null", "\"frame\": 1,", "\"time\": [0, 1],", "\"yaw\": 3,"],
+        read: path,
+    },
+    Kind {
+        name: "gyroflow.csv",
+        text: "frame,timestamp_ms,org_pitch,org_yaw,org_roll,stab_pitch,stab_yaw,stab_roll\n0,0.000,0.1,0.2,0.3,0,0,0\n1,33.367,0.2,0.3,\
+               0.4,0.1,0,0\n2,66.733,0.3,0.4,0.5,0.1,0.1,0\n",
+        words: &["org_quat_w,org_quat_x,org_quat_y,org_quat_z", "stab_", "\n", ","],
+        read: path,
+    },
+    Kind {
+        name: "gyroflow.json",
+        text: "{\"frame\": [0, 1], \"timestamp_ms\": [0, 33.4], \"org_quat_w\": [1, 1], \"org_quat_x\": [0, 0], \"org_quat_y\": [0, 0], \
+               \"org_quat_z\": [0, 0]}",
+        words: &["[", "]", "{", "}", "null", "\"stab_quat_w\": [1, 1],"],
+        read: path,
+    },
+    Kind {
+        name: "camera.gltf",
+        text: "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"name\":\"Camera\",\"camera\":0}],\
+               \"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":1.0,\"znear\":0.1}}],\"buffers\":[{\"byteLength\":40,\"uri\":\
+               \"data:application/octet-stream;base64,AAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAPMENT8AAAAA8wQ1Pw==\"}],\"bufferViews\":[\
+               {\"buffer\":0,\"byteOffset\":0,\"byteLength\":8},{\"buffer\":0,\"byteOffset\":8,\"byteLength\":32}],\"accessors\":[\
+               {\"bufferView\":0,\"componentType\":5126,\"count\":2,\"type\":\"SCALAR\",\"min\":[0],\"max\":[1]},{\"bufferView\":1,\
+               \"componentType\":5126,\"count\":2,\"type\":\"VEC4\"}],\"animations\":[{\"samplers\":[{\"input\":0,\"output\":1,\"interpolation\":\
+               \"LINEAR\"}],\"channels\":[{\"sampler\":0,\"target\":{\"node\":0,\"path\":\"rotation\"}}]}]}",
+        words: &[
+            "CUBICSPLINE",
+            "STEP",
+            "\"children\":[0],",
+            "\"sparse\":{\"count\":1},",
+            "VEC3",
+            "5121",
+            "{",
+            "}",
+            "[",
+            "]",
+        ],
+        read: path,
+    },
+];
+
+fn calibration(name: &Path, bytes: &[u8]) -> bool {
+    Calibration::read_from(bytes, name).is_ok()
+}
+
+fn project(name: &Path, bytes: &[u8]) -> bool {
+    PtoProject::read_from(bytes, name).is_ok()
+}
+
+/// By frame and by time, of the camera that makes pictures and of the one that made them.
+fn path(name: &Path, bytes: &[u8]) -> bool {
+    let beside = |_: &Path| Err(std::io::ErrorKind::NotFound.into());
+    let ways = [(None, false), (Some(25.0), false), (Some(25.0), true)];
+    let read = |(fps, is_of_input): (Option<f64>, bool)| {
+        CameraPath::read(bytes, &PathSource { name, fps, node: None, is_of_input, beside: &beside })
+    };
+    ways.into_iter().filter_map(|way| read(way).ok()).fold(false, |_, path| {
+        let is_finite = |pose: &cosmorama_io::PathPose| {
+            pose.frame.is_finite() && pose.orientation.yaw_pitch_roll().iter().all(|angle| angle.degrees().is_finite())
+        };
+        assert!(path.poses.iter().all(is_finite), "{}: {:?}", name.display(), path.poses);
+        true
+    })
+}
+
+#[test]
+fn texts_of_other_programs_never_panic() {
+    for (seed, Kind { name, text, words, read }) in (0..).zip(KINDS) {
+        let read = |bytes: &[u8]| read(Path::new(name), bytes);
+        assert!(read(text.as_bytes()), "{name} is as programs write it");
+        for length in 0..text.len() {
+            read(&text.as_bytes()[..length]);
+        }
+        for (mutant, damaged) in Mutants::new(text.as_bytes(), words, seed).take(Mutants::count(2000)).enumerate() {
+            let start = Instant::now();
+            read(&damaged);
+            let spent = start.elapsed();
+            assert!(spent < LONGEST, "{name}, mutant {mutant}: {spent:?} for {}", String::from_utf8_lossy(&damaged));
+        }
+    }
+}
+
+/// Each pose brings a name of its own: a table of all names for all poses would have 80 gigabytes.
+#[test]
+fn more_names_than_programs_write_are_refused() {
+    let beside = |_: &Path| Err(std::io::ErrorKind::NotFound.into());
+    let read = |name: &str, text: &str| {
+        let source = PathSource { name: Path::new(name), fps: None, node: None, is_of_input: false, beside: &beside };
+        CameraPath::read(text.as_bytes(), &source).unwrap_err().to_string()
+    };
+    let names: Vec<String> = (0..80_000).map(|index| format!("\"frame{index}\"")).collect();
+    let poses: Vec<String> = names.iter().map(|name| format!("{{{name}: 1}}")).collect();
+    let columns: Vec<String> = names.iter().map(|name| format!("{name}: [1]")).collect();
+    for (name, text) in [
+        ("a.json", format!("[{}]", poses.join(","))),
+        ("b.json", format!("{{{}}}", columns.join(","))),
+        ("c.csv", names.join(",")),
+    ] {
+        let start = Instant::now();
+        let error = read(name, &text);
+        assert!(error.contains(name) && error.contains("more than 256 columns"), "{error}");
+        assert!(start.elapsed() < LONGEST / 2, "{name}: {:?}", start.elapsed());
+    }
+}
+
+/// Each pose is compared with the one before it, and with no other.
+#[test]
+fn long_paths_take_time_by_their_length() {
+    let text: String = (0..200_000).map(|frame| format!("{frame},0,0,0\n")).collect();
+    let start = Instant::now();
+    let path = CameraPath::parse(text.as_bytes(), Path::new("long.csv"), None).unwrap();
+    assert_eq!(path.poses.len(), 200_000);
+    assert!(start.elapsed() < LONGEST / 2, "{:?}", start.elapsed());
+}
+
+/// What a file says of how it was made is read from its texts, which may be longer, shorter or other than any we write.
+#[test]
+fn origins_are_words_that_every_format_holds() {
+    const ORIGIN: &str = "0.2.0, geometry 0123abcd, filter 89abcdef, colour 00000000, pose 11111111, input 22222222";
+    let metadata = Metadata { origin: Some(ORIGIN.to_owned()), ..Metadata::default() };
+    let options = WriteOptions::with_metadata(metadata);
+    for format in [Format::Png, Format::Jpeg, Format::Tiff, Format::Exr, Format::Hdr] {
+        let image = picture(8, 6, Channels::Rgb, format.nearest_depth(Depth::Eight));
+        let mut good = Cursor::new(Vec::new());
+        write_to(&mut good, "a", format, &image, &options).unwrap();
+        let good = good.into_inner();
+        assert_eq!(probe_from(Cursor::new(&good), "a").unwrap().metadata.origin.as_deref(), Some(ORIGIN), "{format}");
+        let words = ["cosmorama", "cosmorama (", ")", ", pose ", "Software\0"];
+        for damaged in Mutants::new(&good, &words, 8).take(Mutants::count(600)) {
+            let start = Instant::now();
+            let told = probe_from(Cursor::new(&damaged), "a").ok().and_then(|header| header.metadata.origin);
+            let is_told =
+                |origin: &String| origin.len() <= 256 && origin.bytes().all(|letter| (b' '..=b'~').contains(&letter));
+            assert!(told.as_ref().is_none_or(is_told), "{format}: {told:?}");
+            drop(read_from(Cursor::new(&damaged), "a", &Limits::memory(1 << 24)));
+            assert!(start.elapsed() < LONGEST, "{format}: {:?}", start.elapsed());
+        }
+    }
+}

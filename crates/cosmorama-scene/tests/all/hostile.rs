@@ -1,0 +1,108 @@
+//! Scene files and models from strangers: each is refused or understood, in bounded time.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use cosmorama::raster::{Image, Rgba};
+use cosmorama_scene::{
+    Model, ModelSettings, Object, PictureKind, PictureReader, PictureSource, SceneFile, SceneReader,
+};
+use testkit::Mutants;
+
+use crate::models::SETTINGS;
+
+/// Longest time that a text of some kilobytes may take.
+const LONGEST: Duration = Duration::from_secs(10);
+
+/// A reader that finds small pictures everywhere, and models nowhere.
+struct Small;
+
+impl PictureReader for Small {
+    fn picture(&mut self, _: PictureSource, _: PictureKind) -> Result<Image<Rgba>, String> {
+        Ok(Image::filled(2, 2, Rgba::BLACK))
+    }
+}
+
+impl SceneReader for Small {
+    fn model(&mut self, path: &Path, _: ModelSettings) -> Result<Object, String> {
+        Err(format!("{}: no model", path.display()))
+    }
+}
+
+const SCENE: &str = "[camera]\nprojection = \"perspective:fov=40\"\neye = [0, 1, 5]\ntarget = [0, 0, 0]\nsize = \"64x48\"\n\n[world.sky]\n\
+                     image = \"sky.png\"\nspec = \"equirect\"\nproxy = \"box:4,3,4\"\ncentre = [0, 1, 0]\n\n[material.gold]\nmetallic = 1\n\
+                     roughness = 0.25\ncolor = \"#ffcc66\"\n\n[material.wood]\ncolor = \"wood.png\"\n\n[[object]]\nshape = \"sphere\"\n\
+                     material = \"gold\"\nworld = \"sky\"\nat = [1, 0, 0]\n\n[[object]]\nshape = \"sphere\"\nmaterial = \"wood\"\n";
+
+fn scene(text: &[u8]) -> bool {
+    let Ok(text) = str::from_utf8(text) else { return false };
+    SceneFile::parse("scene.toml", text).is_ok_and(|file| {
+        file.camera();
+        file.worlds().is_ok() & file.scene(&mut Small).is_ok()
+    })
+}
+
+#[test]
+fn scene_files_are_refused_or_understood() {
+    assert!(scene(SCENE.as_bytes()), "{:?}", SceneFile::parse("scene.toml", SCENE).map(drop));
+    let words = [
+        "[[object]]\n",
+        "[material.a]\n",
+        "[world.b]\n",
+        "glass = true\n",
+        "file = \"a.obj\"\n",
+        "scale = ",
+        "turn = ",
+        "#",
+    ];
+    let mut understood = 0;
+    for damaged in Mutants::new(SCENE.as_bytes(), &words, 1).take(Mutants::count(2000)) {
+        let start = Instant::now();
+        understood += usize::from(scene(&damaged));
+        assert!(start.elapsed() < LONGEST, "{:?} for {}", start.elapsed(), String::from_utf8_lossy(&damaged));
+    }
+    assert!(understood > 0);
+}
+
+#[test]
+fn a_scene_file_is_no_longer_than_its_things() {
+    let text = format!("{SCENE}#{}", " ".repeat(SceneFile::LONGEST));
+    let error = SceneFile::parse("long.toml", &text).unwrap_err().to_string();
+    assert!(error.contains("long.toml") && error.contains("16777216 bytes"), "{error}");
+}
+
+/// Models, and what they name beside them.
+#[test]
+fn models_are_refused_or_understood() {
+    let folder = std::env::temp_dir().join(format!("cosmorama-hostile-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let material = "newmtl red\nKd 1 0 0\nNs 20\nmap_Kd -s 2 2 2 wood.png\nnewmtl blue\nPr 0.5\nPm 1\nd 0.5\n";
+    std::fs::write(folder.join("beside.mtl"), material).unwrap();
+    let plane = "mtllib beside.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0 1.0\nv 0 1 0\nvt 0 0\nvt 1 1 0\nvn 0 0 1\ng left\nusemtl red\nf 1 2 3\nusemtl \
+                 blue\nf 1/1/1 3/2/1 4/1/1\nf -4//1 -3//-1 -2//1\n";
+    std::fs::write(folder.join("beside.obj"), plane.replace("beside.mtl", "damaged.mtl")).unwrap();
+    let gltf = "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0,\"children\":[1]},{\"camera\":0}],\
+                \"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":1.0,\"znear\":0.1}}],\"materials\":[{\"pbrMetallicRoughness\":\
+                {\"baseColorFactor\":[1,0.5,0,1]}}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1,\"material\":0}]}],\
+                \"buffers\":[{\"byteLength\":42,\"uri\":\"data:application/octet-stream;base64,\
+                AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIA\"}],\"bufferViews\":[{\"buffer\":0,\"byteOffset\":0,\"byteLength\":36},\
+                {\"buffer\":0,\"byteOffset\":36,\"byteLength\":6}],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\
+                \"VEC3\",\"min\":[0,0,0],\"max\":[1,1,0]},{\"bufferView\":1,\"componentType\":5123,\"count\":3,\"type\":\"SCALAR\"}]}";
+    let words =
+        ["usemtl", "f 1 2 3\n", "\"children\":[0],", "\"sparse\":{\"count\":1},", "{", "}", "[", "]", "map_Bump "];
+    for (seed, (name, opened, text)) in
+        (0..).zip([("a.obj", "a.obj", plane), ("damaged.mtl", "beside.obj", material), ("a.gltf", "a.gltf", gltf)])
+    {
+        let read = |bytes: &[u8]| {
+            std::fs::write(folder.join(name), bytes).unwrap();
+            let start = Instant::now();
+            let model = Model::read(&folder.join(opened), &SETTINGS, &mut Small);
+            assert!(start.elapsed() < LONGEST, "{:?} for {}", start.elapsed(), String::from_utf8_lossy(bytes));
+            model.map(drop).map_err(|error| error.to_string())
+        };
+        assert_eq!(read(text.as_bytes()), Ok(()), "{name}");
+        let copies = Mutants::new(text.as_bytes(), &words, seed).take(Mutants::count(1000));
+        assert!(copies.filter(|damaged| read(damaged).is_ok()).count() > 0, "{name}");
+    }
+    std::fs::remove_dir_all(&folder).unwrap();
+}
