@@ -78,6 +78,17 @@ impl<P: Profile> Projection for Cylindrical<P> {
         self.unproject_with_jacobian(point).map(|(_, jacobian)| jacobian)
     }
 
+    fn solid_angle(&self, point: PlanePoint) -> Option<f64> {
+        let (latitude, slope) = self.0.latitude(point.y).filter(|_| point.x.is_finite())?;
+        Some((latitude.cos * slope).abs())
+    }
+
+    fn row_solid_angles(&self, first: PlanePoint, step: f64, count: usize, mut visit: impl FnMut(usize, Option<f64>)) {
+        // Along a row all are alike.
+        let solid_angle = self.solid_angle(first).filter(|_| step.is_finite());
+        (0..count).for_each(|k| visit(k, solid_angle));
+    }
+
     fn unproject_with_jacobian(&self, point: PlanePoint) -> Option<(Direction, DirectionJacobian)> {
         let (latitude, slope) = self.0.latitude(point.y).filter(|_| point.x.is_finite())?;
         let longitude = DVec2::from_angle(point.x);
