@@ -8,6 +8,7 @@ use crate::engine::{FrameFile, Stage, Stages};
 use crate::input::lists::world_file;
 use crate::job::{Content, ConvertJob, Purpose};
 use crate::settings::{Backdrop, Conversion, GeometrySettings};
+use crate::source::MemoryBudget;
 
 /// A conversion that has been checked as far as possible without decoding pixels.
 pub struct Checked {
@@ -20,6 +21,8 @@ pub struct Checked {
     pub(crate) diagnostics: Vec<Diagnostic>,
     pub(crate) stages: Stages,
     pub(crate) start: Instant,
+    /// Memory that may be used in all.
+    pub(crate) allowed: MemoryBudget,
 }
 
 impl Conversion {
@@ -36,6 +39,7 @@ impl Conversion {
         let settings = with_layers(self)?;
         let content = Content::of(&settings)?;
         let pool = threads(settings.limits.threads)?;
+        let allowed = MemoryBudget::new(settings.limits.memory);
         let resolve =
             || stages.alone(Stage::Plan, || ConvertJob::resolve(&settings, (content, Purpose::Pictures), diagnostics));
         let job = pool.install(resolve)?;
@@ -43,7 +47,8 @@ impl Conversion {
             let check = || job.layers().try_for_each(FrameFile::check_frames);
             pool.install(|| stages.alone(Stage::Decode, check))?;
         }
-        Ok(Checked { settings, content, job, pool, diagnostics: diagnostics.clone(), stages, start })
+        let diagnostics = diagnostics.clone();
+        Ok(Checked { settings, content, job, pool, diagnostics, stages, start, allowed })
     }
 }
 

@@ -8,7 +8,7 @@ use cosmorama_spec::Spec;
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
-use super::{Checked, Observer, Report, Stop, Work, watched};
+use super::{Checked, Observer, Report, Stop, Work, decisions, watched};
 use crate::diagnostic::{Code, ConvertError, DEPTH, Diagnostic, Result, SCALE};
 use crate::engine::unfiltered::{OutputFile, formula, st_map};
 use crate::engine::{
@@ -26,9 +26,11 @@ impl Checked {
     /// When a file cannot be read or written, its content contradicts its header, or the observer stops the run.
     pub fn run(mut self, observer: &mut dyn Observer) -> Result<Report> {
         observer.begin(self.job.outputs.frames.len());
+        self.decisions().iter().for_each(|decision| observer.decided(decision));
         let (mut lit, mut interpolated) = (Vec::new(), Vec::new());
+        let mut estimated = self.job.estimated_bytes(self.pool.current_num_threads());
         match self.content {
-            Content::World => (lit, interpolated) = self.convert(observer)?,
+            Content::World => (lit, interpolated, estimated) = self.convert(observer)?,
             Content::StMap => self.each_file(observer, st_map::make)?,
             Content::Formula(world) => {
                 let options = write_options(&self.settings, self.job.target.format, &self.job.outputs, &self.job.light);
@@ -43,7 +45,7 @@ impl Checked {
             BTreeSet::from([PathBuf::from(&settings.input)])
         };
         let report = Report::new(inputs, &job.outputs, start.elapsed(), &stages, diagnostics);
-        Ok(Report { light: lit, interpolated, ..report })
+        Ok(Report { light: lit, interpolated, estimated_memory_bytes: estimated, ..report })
     }
 
     /// Makes one file after the other.
@@ -63,7 +65,7 @@ impl Checked {
     }
 
     /// Converts the light of files.
-    fn convert(&mut self, observer: &mut dyn Observer) -> Result<(Vec<LightReport>, Vec<InterpolationReport>)> {
+    fn convert(&mut self, observer: &mut dyn Observer) -> Result<Converted> {
         let Self { settings, job, pool, stages, diagnostics, .. } = self;
         let options = write_options(settings, job.target.format, &job.outputs, &job.light);
         let prepare = |progress: &dyn Progress| stages.alone(Stage::Plan, || Engine::new(job, options, progress));
@@ -73,6 +75,8 @@ impl Checked {
         let tally = warnings::Tally::default();
         let mut run = Run { job, engine, stages, pool, observer, diagnostics, from, tally, is_first: true, done: 0 };
         run.tell(engine.told());
+        engine.decisions().iter().for_each(|decision| run.observer.decided(decision));
+        let estimated = pool.install(|| engine.estimated_bytes());
         let made = match &job.outputs.frames[..] {
             [] => Ok(Vec::new()),
             [frame] => run.still(frame).map(|()| Vec::new()),
@@ -97,9 +101,12 @@ impl Checked {
         let told =
             lit.iter().filter_map(|report| too_bright((job, output), (report.frame, report.level), report.overflowed));
         run.tell(told.chain(lit.first().and_then(|report| fitted(job, output, report.scale))).collect());
-        Ok((lit, interpolated))
+        Ok((lit, interpolated, estimated))
     }
 }
+
+/// Figures of maps of light, differences of interpolated ones, and the memory that was expected to be needed.
+type Converted = (Vec<LightReport>, Vec<InterpolationReport>, u64);
 
 /// Returns the warning about light that was scaled to fit the output's sample type.
 fn fitted(job: &ConvertJob, output: &str, scale: f64) -> Option<Diagnostic> {
@@ -166,11 +173,11 @@ impl Run<'_> {
         let light = pool.install(|| light_of(job, engine, stages, frame))?;
         self.look(frame, &light);
         let pictures = stages.alone(Stage::Filter, || self.render(frame, &light))?;
-        let carried = light.carried();
+        let (carried, origin) = (light.carried(), job.origin_of(frame.frame)?);
+        light.check_unchanged(&*job.files)?;
         drop(light);
         let write = || {
             let outputs = frame.files.par_iter().zip(pictures);
-            let origin = job.origin_of(frame.frame)?;
             let said = (carried.as_ref(), origin.as_deref());
             let save = |path, levels| engine.writer().save_frame(said, levels, path, Threads::All);
             outputs.try_for_each(|((_, path), levels)| save(path, levels))
@@ -201,6 +208,7 @@ impl Watcher for Run<'_> {
 
     fn done(&mut self, frame: &FrameOutputs) -> Result<()> {
         self.done += 1;
+        decisions::of_done(self.job, frame).iter().for_each(|decision| self.observer.decided(decision));
         tell_done(self.observer, frame.frame, (self.done, self.job.outputs.frames.len()))
     }
 }

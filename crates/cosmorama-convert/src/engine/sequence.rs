@@ -11,7 +11,6 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 
 use cosmorama::raster::Threads;
-use cosmorama_io::Carried;
 use rayon::{Scope, ThreadPool};
 
 use crate::diagnostic::{InPlace, Result, bail};
@@ -121,7 +120,7 @@ impl<'a> Sequence<'a> {
             for (place, pictures) in interpolated.into_iter().chain([(place, pictures)]) {
                 queues.finish_written(written - 1, watcher)?;
                 let frame = &frames[place - 1];
-                let being_written = self.have_written((scope, failure, place), frame, (pictures, light.carried()))?;
+                let being_written = self.have_written((scope, failure, place), frame, (pictures, &light))?;
                 queues.written.push_back((frame, being_written));
             }
         }
@@ -134,7 +133,8 @@ impl<'a> Sequence<'a> {
     {
         let Self { job, engine, stages, .. } = *self;
         let files = FrameFile::all(job, frame.frame, which).into_iter();
-        let read = |file: FrameFile| task(turn, move || stages.beside(Stage::Decode, || file.read(job, engine.pool())));
+        let read =
+            |file: FrameFile<'a>| task(turn, move || stages.beside(Stage::Decode, || file.read(job, engine.pool())));
         files.map(read).collect()
     }
 
@@ -143,13 +143,15 @@ impl<'a> Sequence<'a> {
         &self,
         turn: Turn<'_, 's>,
         frame: &'a FrameOutputs,
-        (pictures, carried): (Vec<Levels>, Option<Arc<Carried>>),
+        (pictures, light): (Vec<Levels>, &FrameLight),
     ) -> Result<Results<()>>
     where
         'a: 's,
     {
         let Self { job, engine, stages, .. } = *self;
         let origin = job.origin_of(frame.frame)?.map(Arc::<str>::from);
+        light.check_unchanged(&*job.files).at(|| named(frame))?;
+        let carried = light.carried();
         let write = |((_, path), levels): (&'a (usize, std::path::PathBuf), Levels)| {
             let path: &'a Path = path;
             let (carried, origin) = (carried.clone(), origin.clone());

@@ -11,6 +11,7 @@ use cosmorama_io::{
 };
 
 use super::decoded_picture::DecodedPicture;
+use super::stamp::Stamp;
 use crate::source::MemoryBudget;
 
 /// Source of the bytes of inputs: disk, memory, an archive. Inputs are pictures, masks, st maps, calibrations, world
@@ -28,6 +29,11 @@ pub trait Files: Debug + Send + Sync {
     /// Returns the part and the channels to read of pictures that have several.
     fn choice(&self) -> Choice {
         Choice::default()
+    }
+
+    /// Returns a stamp that differs once a file has changed; `None` where files do not change, or are gone.
+    fn stamp(&self, _path: &Path) -> Option<Stamp> {
+        None
     }
 }
 
@@ -52,6 +58,10 @@ impl Files for ChosenFiles {
     fn choice(&self) -> Choice {
         self.choice.clone()
     }
+
+    fn stamp(&self, path: &Path) -> Option<Stamp> {
+        self.files.stamp(path)
+    }
 }
 
 /// Files on disk.
@@ -65,6 +75,10 @@ impl Files for Disk {
 
     fn holds(&self, _: &Path) -> bool {
         false
+    }
+
+    fn stamp(&self, path: &Path) -> Option<Stamp> {
+        Stamp::of(path)
     }
 }
 
@@ -97,6 +111,10 @@ impl Files for InMemory {
 
     fn holds(&self, path: &Path) -> bool {
         self.files.contains_key(path)
+    }
+
+    fn stamp(&self, path: &Path) -> Option<Stamp> {
+        if self.holds(path) { None } else { Disk.stamp(path) }
     }
 }
 

@@ -9,6 +9,7 @@ pub(crate) mod mask;
 mod overlap;
 mod solid_angles;
 mod st_pixels;
+mod view_index;
 mod watertight;
 #[allow(clippy::module_inception)]
 mod world;
