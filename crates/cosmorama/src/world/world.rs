@@ -4,8 +4,8 @@ use std::sync::Arc;
 use thiserror::Error;
 
 use super::blend::{Blend, Border, Presence, parts};
-use super::bounding_cone::SeenCone;
-use super::view_index::ViewIndex;
+use super::search::bounding_cone::SeenCone;
+use super::search::view_index::ViewIndex;
 use super::{SolidAngles, ViewMask, overlap};
 use crate::camera::ROUNDING;
 use crate::camera::{PixelPoint, PixelRect, View};
@@ -259,7 +259,8 @@ impl World {
         }
         hide(&mut sources);
         overlap::share(&mut sources);
-        let index = ViewIndex::of(&sources).map(Arc::new);
+        let cones: Vec<Option<SeenCone>> = sources.iter().map(|source| source.cone).collect();
+        let index = ViewIndex::of(&cones).map(Arc::new);
         Ok(Self { sources, index })
     }
 

@@ -53,12 +53,12 @@ impl SeenCone {
     }
 
     /// Returns the cone of another view whose texels are those of a view with this cone, but for their orientation.
-    pub(super) fn turned(self, from: &View, to: &View) -> Self {
+    pub(crate) fn turned(self, from: &View, to: &View) -> Self {
         Self { middle: to.orientation.to_world(from.orientation.to_view(self.middle)), ..self }
     }
 
     /// Returns whether two cones have a direction in common, or nearly so: they hold directions up to rounding.
-    pub(super) fn meets(&self, other: &Self) -> bool {
+    pub(crate) fn meets(&self, other: &Self) -> bool {
         const ROUNDING: f64 = 1e-6;
         self.reaches(other.middle, other.half.radians() + ROUNDING)
     }

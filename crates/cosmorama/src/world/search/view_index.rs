@@ -1,14 +1,14 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::Source;
+use super::bounding_cone::SeenCone;
 use crate::sphere::Direction;
 
 /// Views of a world by direction: for each cell of a grid on the sphere, those that may show some of it, in their order.
 ///
 /// Worlds of thousands of views would otherwise be searched from the first view to the last for every pixel.
 #[derive(Clone, Debug)]
-pub(super) struct ViewIndex {
+pub(crate) struct ViewIndex {
     /// Cells along each edge of a cube's face.
     edge: usize,
     /// Place of each cell's first view, and behind the last cell's.
@@ -26,17 +26,18 @@ const MOST: usize = 64;
 const ROUNDING: f64 = 1e-6;
 
 impl ViewIndex {
-    /// Sorts the views of a world; `None` where they are few.
-    pub(super) fn of(sources: &[Source]) -> Option<Self> {
-        if sources.len() <= FEW {
+    /// Sorts views by their cones; a view without a cone may show anything. `None` where they are few.
+    pub(crate) fn of(cones: &[Option<SeenCone>]) -> Option<Self> {
+        if cones.len() <= FEW {
             return None;
         }
         // About as many cells as views.
-        let edge = (1..MOST).take_while(|edge| 6 * edge * edge < sources.len()).last().unwrap_or(1);
+        let edge = (1..MOST).take_while(|edge| 6 * edge * edge < cones.len()).last().unwrap_or(1);
         let list = |cell: usize| -> Vec<u32> {
             let (middle, radius) = bounds(edge, cell);
-            let may_show = |(_, source): &(u32, &Source)| source.reaches(middle, radius + ROUNDING);
-            (0..).zip(sources).filter(may_show).map(|(index, _)| index).collect()
+            let reaches = |cone: &SeenCone| cone.reaches(middle, radius + ROUNDING);
+            let may_show = |(_, cone): &(u32, &Option<SeenCone>)| cone.as_ref().is_none_or(reaches);
+            (0..).zip(cones).filter(may_show).map(|(index, _)| index).collect()
         };
         let lists: Vec<Vec<u32>> = (0..6 * edge * edge).into_par_iter().map(list).collect();
         let mut starts = vec![0];
@@ -47,7 +48,7 @@ impl ViewIndex {
     }
 
     /// Visits the views that may show a direction, in their order.
-    pub(super) fn at(&self, direction: Direction) -> impl Iterator<Item = usize> + '_ {
+    pub(crate) fn at(&self, direction: Direction) -> impl Iterator<Item = usize> + '_ {
         let cell = cell(self.edge, direction.vector());
         let views = &self.views[self.starts[cell] as usize..self.starts[cell + 1] as usize];
         views.iter().map(|view| *view as usize)
