@@ -44,8 +44,8 @@ impl SequenceCost {
     }
 }
 
-/// Nanoseconds of work on one core of a server of 2024: x86-64 with AVX2, near 3 GHz. Medians over the conversions of
-/// docs/performance.md; `.ci/cost` measures them.
+/// Nanoseconds of work on one core of a server with AVX2, near 3 GHz: those of 48 frames in docs/performance.md, "Whole commands". With
+/// AVX-512 the filter takes half as long.
 struct Nanoseconds {
     /// For each pixel that shows something.
     pixel: f64,
@@ -63,8 +63,8 @@ impl CostedFiles {
 
     fn nanoseconds(self) -> Nanoseconds {
         match self {
-            Self::EightBits => Nanoseconds { pixel: 1.0, texel: 0.3, read: 4.0, written: 2.0 },
-            Self::Halves => Nanoseconds { pixel: 8.0, texel: 0.9, read: 4.0, written: 12.0 },
+            Self::EightBits => Nanoseconds { pixel: 2.0, texel: 0.75, read: 3.0, written: 2.0 },
+            Self::Halves => Nanoseconds { pixel: 6.0, texel: 1.5, read: 3.0, written: 20.0 },
         }
     }
 
@@ -105,6 +105,7 @@ impl Explanation {
         let largest = self.pictures().iter().filter(is_part).map(|picture| area(size(picture))).max().unwrap_or(0);
         let prepared = reports.iter().map(|report| report.memory.levels as u64).max().unwrap_or(0);
         let needs = FrameNeeds::of_pictures(input, worlds, (pixels, largest), held).with_prepared(prepared);
+        let needs = needs.with_bands(input.texels() as u64, self.pictures().iter().map(size));
         let plan = |report: &explain::Report| {
             if held == Held::INTEGERS { report.memory.fixed_plan } else { report.memory.plan }
         };

@@ -5,7 +5,7 @@ use cosmorama::camera::View;
 use cosmorama::filter::{FilterKind, FilterSettings, Kernel};
 use cosmorama::lighting::PreparedLight;
 use cosmorama::motion::{Exposure, Moment, Pose};
-use cosmorama::raster::{Channels, Depth, FixedCodec, FixedDecoder, Rgba};
+use cosmorama::raster::{Channels, Depth, FixedCodec, FixedDecoder, Rgba, Transfer};
 use cosmorama::render::{Arithmetic, Resampler};
 use cosmorama::world::World;
 use cosmorama_builtin::BuiltinWorld;
@@ -334,7 +334,12 @@ impl ConvertJob {
     /// Returns the memory that its frames need, without what lies behind and without further channels.
     pub(crate) fn frame_needs(&self) -> FrameNeeds {
         let held = if self.fixed_codec().is_some() { Held::INTEGERS } else { Held::floats(&self.light) };
-        FrameNeeds::of(&self.input, &self.worlds, &self.target, held).with_prepared(self.prepared)
+        let needs = FrameNeeds::of(&self.input, &self.worlds, &self.target, held).with_prepared(self.prepared);
+        if self.filter.kind != FilterKind::Ewa || self.lighting.is_some() {
+            return needs;
+        }
+        let views = self.target.views.iter().map(|target| (target.view.width(), target.view.height()));
+        needs.with_bands(self.input.texels() as u64, views)
     }
 
     /// Returns the memory that a single frame needs in all: with the program, further channels, and what lies behind.
@@ -362,14 +367,20 @@ impl ConvertJob {
             && self.backdrop.is_none()
             && self.opacity >= 1.0
             && self.is_complete()
-            && self.input.present().all(|(_, header, _)| {
-                let colours = light.colours(header.channels, header.depth, &header.metadata);
-                header.depth == Depth::Eight
-                    && !header.channels.has_alpha()
-                    && colours.conversion.is_none()
-                    && FixedDecoder::new(&colours.transfer).is_some()
-            });
+            && self.takes_integers();
         is_possible.then(|| FixedCodec::new(&light.transfer, light.background)).flatten()
+    }
+
+    /// Returns whether all inputs are opaque, of 8 bits, and fit 15-bit light.
+    fn takes_integers(&self) -> bool {
+        // Tables of a transfer function are made once, since a world may have thousands of views.
+        let mut known: Option<Transfer> = None;
+        self.input.present().all(|(_, header, _)| {
+            let colours = self.light.colours(header.channels, header.depth, &header.metadata);
+            let fits = known.as_ref() == Some(&colours.transfer) || FixedDecoder::new(&colours.transfer).is_some();
+            known = Some(colours.transfer);
+            fits && header.depth == Depth::Eight && !header.channels.has_alpha() && colours.conversion.is_none()
+        })
     }
 
     /// Returns whether the filter should keep light and can be balanced: `--kernel light` without anti-ringing, whose

@@ -74,6 +74,8 @@ pub(crate) struct FrameNeeds {
     pictures: u64,
     /// Largest part of a sheet, which is made by itself.
     piece: u64,
+    /// Weights of the rows that threads work on.
+    bands: u64,
     /// Samples of the pictures.
     encoded: u64,
 }
@@ -119,6 +121,7 @@ impl FrameNeeds {
             light,
             pictures: pixels.saturating_mul(held.pixel()),
             piece: largest.saturating_mul(held.pixel()),
+            bands: 0,
             encoded: pixels.saturating_mul(held.encoded),
         };
         needs.beside_tables(input.views().map(|view| &view.nominal))
@@ -129,6 +132,17 @@ impl FrameNeeds {
         Self { shared: views.map(table_bytes).fold(self.shared, u64::saturating_add), ..self }
     }
 
+    /// Adds the weights of the rows of views of these sizes that threads work on. Where texels are far more than pixels, there is about one
+    /// weight for each texel.
+    pub(crate) fn with_bands(self, texels: u64, views: impl Iterator<Item = (usize, usize)>) -> Self {
+        let rows = BAND_ROWS.saturating_mul(rayon::current_num_threads() as u64);
+        let bytes = |(width, height): (usize, usize)| {
+            let all = texels.saturating_add(area((width, height))).saturating_mul(WEIGHT);
+            all / (height as u64).max(1) * rows.min(height as u64)
+        };
+        Self { bands: views.map(bytes).max().unwrap_or(0), ..self }
+    }
+
     /// Adds what is made of the input before pictures are, or copies of pictures.
     pub(crate) fn with_prepared(self, bytes: u64) -> Self {
         Self { prepared: self.prepared.saturating_add(bytes), ..self }
@@ -137,8 +151,8 @@ impl FrameNeeds {
     /// Returns the bytes that a single frame takes at once, at most, without those of the program.
     pub(crate) fn peak(self) -> u64 {
         let Samples { all, scratch, .. } = self.samples;
-        let read = sum([all, scratch, self.light]);
-        let filtered = sum([self.light, self.prepared, self.pictures, self.piece]);
+        let read = sum([all, scratch.max(self.light)]);
+        let filtered = sum([self.light, self.prepared, self.pictures, self.piece, self.bands]);
         let written = sum([self.pictures, self.encoded]);
         self.shared.saturating_add(read.max(filtered).max(written))
     }
@@ -148,7 +162,8 @@ impl FrameNeeds {
     fn in_sequence(self) -> FrameMemory {
         let Samples { all, moving, scratch, .. } = self.samples;
         let written = self.pictures.saturating_add(self.encoded);
-        FrameMemory { all: sum([all, scratch, self.light, self.prepared, written, self.piece]), read: moving, written }
+        let once = sum([scratch, self.light, self.prepared, self.piece, self.bands]);
+        FrameMemory { all: sum([all, once, written]), read: moving, written }
     }
 
     /// Returns the bytes of the pictures.
@@ -305,11 +320,16 @@ impl MemoryBudget {
 }
 
 /// Memory of the program without pictures, with its tables.
-const PROGRAM: u64 = 14 << 20;
+const PROGRAM: u64 = 18 << 20;
 
-/// Memory of a thread beside the pictures that it works on: bands of geometry, blocks of files, and the allocator's
-/// reserve.
-const THREAD: u64 = 3 << 20;
+/// Memory of a thread beside the pictures that it works on: blocks of files, and the allocator's reserve.
+const THREAD: u64 = 4 << 20;
+
+/// Rows that a thread works on.
+const BAND_ROWS: u64 = 32;
+
+/// Bytes of a texel's weight, and of what a pixel's weights need beside them.
+const WEIGHT: u64 = 8;
 
 /// Memory from which budgets hold for the program and all its threads, too. Smaller ones hold for pictures: nobody means that the program
 /// itself is too large.

@@ -126,10 +126,11 @@ fn files_of_the_future_are_files_like_others() {
     let touch =
         |name: &str| std::fs::File::options().write(true).open(folder.join(name)).unwrap().set_modified(later).unwrap();
     (1..=FRAMES).for_each(|frame| touch(&format!("sky_{frame:02}.png")));
-    std::fs::write(folder.join("sky_.cosmorama-of-another-machine.part"), "").unwrap();
-    touch("sky_.cosmorama-of-another-machine.part");
-    let half = || touch("dome_01.png");
-    assert_eq!(run(domes(folder), half).unwrap().frames, FRAMES as usize);
+    let of_another_machine = ".cosmorama-0123.45-4194305-abcdef.part";
+    std::fs::write(folder.join(of_another_machine), "").unwrap();
+    touch(of_another_machine);
+    assert_eq!(run(domes(folder), || touch("dome_01.png")).unwrap().frames, FRAMES as usize);
+    assert!(folder.join(of_another_machine).exists(), "whoever writes it may be alive");
     std::fs::remove_file(folder.join("dome_02.png")).unwrap();
     let report = domes(folder).existing(Existing::Resume).check().result.unwrap().run(&mut Quiet).unwrap();
     assert_eq!((report.skipped, report.frames), (FRAMES as usize - 1, 1));
@@ -146,7 +147,7 @@ fn a_folder_of_outputs_that_vanishes_is_named() {
     let error = run(conversion(), || std::fs::remove_dir_all(&out).unwrap()).unwrap_err();
     let message = error.message().to_string();
     assert_eq!(error.code(), Code::Unwritable, "{message}");
-    assert!(message.contains("sky_domes/dome_") && message.contains("does not exist"), "{message}");
+    assert!(message.contains("sky_domes/dome_"), "{message}");
     let report = conversion().existing(Existing::Resume).check().result.unwrap().run(&mut Quiet).unwrap();
     assert_eq!(report.frames, FRAMES as usize);
 }

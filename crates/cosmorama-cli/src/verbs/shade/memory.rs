@@ -4,19 +4,15 @@ use cosmorama_convert::Radiance;
 
 use super::camera::Shot;
 
-/// Bytes of a texel while its light is read: its light, that light again, and its solid angle.
-const READ: usize = 2 * size_of::<Rgba>() + size_of::<f32>();
-
-/// Bytes of a texel under which things are lit: its light, its solid angle, and its part of blocks.
-const LIT: usize = size_of::<Rgba>() + size_of::<f32>() + 11;
+/// Bytes of a texel under which things are lit: its light twice while it is read, its solid angle, and its part of blocks of light.
+const LIT: usize = 2 * size_of::<Rgba>() + size_of::<f32>() + 11;
 
 /// Returns the memory that pictures of things need, beside the things themselves and the program.
 pub(super) fn needed(lights: &[Radiance], shots: &[Shot], frames: usize, filter: FilterSettings) -> u64 {
-    let read = lights.iter().map(|light| light.world.texel_count() * READ).sum::<usize>();
     let lit = |light: &Radiance| light.world.texel_count() * LIT + filter.setup(&light.world).bytes;
     let lit = lights.iter().map(lit).sum::<usize>();
     let pixels: usize = shots.iter().map(|shot| shot.camera.width() * shot.camera.height()).sum();
     // The picture, its samples, a sheet that it goes into, and what lies behind things that turn.
     let pictures = 2 + usize::from(shots.iter().any(|shot| shot.place.is_some())) + usize::from(frames > 1);
-    read.max(lit + pixels * pictures * size_of::<Rgba>()) as u64
+    (lit + pixels * pictures * size_of::<Rgba>()) as u64
 }

@@ -2,15 +2,24 @@
 
 use std::process::{Command, Output};
 
+use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
+
 use crate::bench::{Bench, assert_says, picture, text};
 
 const FRAMES: usize = 6;
 
-/// Panoramas, of which the fifth has so much detail that its dome is larger than the others.
+/// Panoramas, of which the fifth is noise, so that its dome is larger than the others.
 fn skies(bench: &Bench) {
     for frame in 1..=FRAMES {
-        bench.save(&format!("sky_{frame}.png"), &picture(if frame == 5 { 5 } else { 1 }, 256, 128));
+        bench.save(&format!("sky_{frame}.png"), &picture(frame, 256, 128));
     }
+    let mixed = |sample: u32| {
+        let mixed = sample.wrapping_mul(0x9e37_79b9);
+        ((mixed ^ (mixed >> 15)).wrapping_mul(0x85eb_ca6b) >> 24) as u8
+    };
+    let noise = (0..3 * 256 * 128).map(mixed).collect();
+    let noise = EncodedImage::new(256, 128, Channels::Rgb, Depth::Eight, Samples::U8(noise)).unwrap();
+    bench.save("sky_5.png", &noise);
 }
 
 const ARGS: &str = "convert sky_#.png dome_#.png --from equirect --to fulldome --size 128 --threads 1";
