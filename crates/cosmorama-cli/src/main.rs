@@ -19,6 +19,8 @@ use std::process::ExitCode;
 
 use clap::Parser;
 
+use crate::console::{Console, Log, VARIABLE};
+
 #[global_allocator]
 static ALLOCATOR: large_pages::LargePages = large_pages::LargePages;
 
@@ -34,10 +36,22 @@ fn run() -> ExitCode {
         Ok(args) => args,
         Err(error) => return failure::report_arguments(&error),
     };
-    let mut console = console::Console::default();
-    console.verbose = args.verbose;
+    let mut console = console(&args);
     match verbs::run(args.verb, &mut console) {
         Ok(code) => code,
         Err(error) => failure::report(&error, &console),
     }
+}
+
+/// Returns the console with the log that is asked for. Without use for the environment's own wishes, it heeds the command line alone.
+fn console(args: &args::Args) -> Console {
+    let asked = std::env::var(VARIABLE).unwrap_or_default();
+    Log::new(args.verbose, &asked, args.log_format).map(Console::new).unwrap_or_else(|error| {
+        let console = Console::new(Log::new(args.verbose, "", args.log_format).unwrap_or_default());
+        console.warning(format_args!(
+            "{VARIABLE}={asked} is ignored ({error}); expected levels by topic, as in {VARIABLE}=info or \
+             {VARIABLE}=cosmorama::memory=debug"
+        ));
+        console
+    })
 }

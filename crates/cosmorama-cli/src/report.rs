@@ -7,7 +7,7 @@ use cosmorama_convert::{CpuSeconds, InterpolationReport, LightReport, Remade, Re
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::console::{Console, in_options, say};
+use crate::console::{Console, in_options};
 
 /// JSON that `--json` prints after a conversion.
 #[derive(Serialize)]
@@ -20,6 +20,7 @@ struct JsonReport<'a> {
     wall_seconds: f64,
     cpu_seconds: JsonCpuSeconds,
     peak_memory_bytes: Option<u64>,
+    estimated_memory_bytes: u64,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     light: Vec<JsonLight>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -113,6 +114,7 @@ pub(crate) fn to_json(report: &Report) -> Result<String> {
         wall_seconds: report.wall.as_secs_f64(),
         cpu_seconds: JsonCpuSeconds { decode, plan, filter, encode },
         peak_memory_bytes: report.peak_memory_bytes,
+        estimated_memory_bytes: report.estimated_memory_bytes,
         light: report.light.iter().map(JsonLight::of).collect(),
         interpolated: report.interpolated.iter().map(JsonInterpolated::of).collect(),
         warnings: told(report, |severity| severity != Severity::Note),
@@ -136,12 +138,15 @@ pub(crate) fn tell(report: &Report, console: &Console) {
     };
     let skipped = if report.skipped == 0 { String::new() } else { format!(", {} kept", report.skipped) };
     let CpuSeconds { decode, plan, filter, encode } = report.cpu_seconds;
-    say(format_args!(
+    console.report(format_args!(
         "{what}{skipped} in {:.2} s (CPU: decode {decode:.2} s, plan {plan:.2} s, filter {filter:.2} s, encode {encode:.2} s)",
         report.wall.as_secs_f64()
     ));
     if !report.interpolated.is_empty() {
         let worst = report.interpolated.iter().map(|report| report.difference.rms).fold(0.0, f64::max);
-        say(format_args!("interpolated frames differ from computed ones by {:.3} % at most (rms)", 100.0 * worst));
+        console.report(format_args!(
+            "interpolated frames differ from computed ones by {:.3} % at most (rms)",
+            100.0 * worst
+        ));
     }
 }

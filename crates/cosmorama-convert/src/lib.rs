@@ -22,12 +22,14 @@ mod video;
 
 pub use colour::{InputTransfer, LayerRules, ThinAlpha, contents};
 pub use conversion::{
-    Checked, Explanation, ExplanationSettings, Fault, Faults, FilterReport, FilterTrial, FilterTrials, Observer,
-    PathExplanation, Quiet, Radiance, Report, SheetLayout, Stop, Verification, Verified, Work, WorldHarmonics,
-    WorldLight, WorldSuns, check_sheet, threads,
+    Checked, CostedFiles, Explanation, ExplanationSettings, Fault, Faults, FilterReport, FilterTrial, FilterTrials,
+    Observer, PathExplanation, Quiet, Radiance, Report, SequenceCost, SheetLayout, Stop, Verification, Verified, Work,
+    WorldHarmonics, WorldLight, WorldSuns, check_sheet, threads,
 };
 pub use detect::{Continuity, FacePixels, GivenFaces, Likely, damage_of, light_of, likely};
-pub use diagnostic::{Code, ConvertError, Diagnostic, Message, Outcome, Part, Remedy, Result, Setting, Severity};
+pub use diagnostic::{
+    Code, ConvertError, Decision, Diagnostic, Message, Outcome, Part, Remedy, Result, Setting, Severity, Topic,
+};
 pub use engine::{CpuSeconds, InterpolationReport, LightReport};
 pub use input::{Builtin, Input, InputView, Listed, face_set, is_one_file, listed};
 pub use job::{Remade, check_apart, real_path, refuse_existing};
@@ -38,7 +40,7 @@ pub use settings::{
     PoseFile,
 };
 pub use source::{
-    Disk, Files, InMemory, MemoryBudget, ViewFiles, existing_frames, peak_bytes, probe, read, with_videos,
+    Disk, Files, InMemory, MemoryBudget, Stamp, ViewFiles, existing_frames, peak_bytes, probe, read, with_videos,
 };
 pub use target::{CHAIN_EDGE, Picture, is_cube_of_light};
 pub use video::{DamagedFrames, VideoSettings, Videos, is_video};

@@ -12,7 +12,7 @@ mod papers;
 mod shade;
 mod verify;
 
-use clap::{Arg, Command, CommandFactory, Parser, Subcommand};
+use clap::{Arg, ArgAction, Command, CommandFactory, Parser, Subcommand};
 
 use cosmorama_spec::SpecKind;
 
@@ -31,6 +31,7 @@ pub(crate) use papers::{FiguresArgs, PlatesArgs};
 pub(crate) use shade::{BackgroundName, CameraName, ObjectName, OcclusionName, Point, RefractName, ShadeArgs};
 pub(crate) use verify::VerifyArgs;
 
+pub(crate) use crate::parse::log_format::LogFormat;
 pub(crate) use crate::parse::progress::ProgressStyle;
 
 /// Example commands in the program's own help.
@@ -71,9 +72,23 @@ pub(crate) struct Args {
     /// Verb to run.
     #[command(subcommand)]
     pub(crate) verb: Verb,
-    /// Say also what is good to know where nothing is wrong
-    #[arg(short, long, global = true)]
-    pub(crate) verbose: bool,
+    /// Say also what was decided and why; twice: every detail
+    ///
+    /// The projection found, colours, filter, geometry, memory and frames, and what is good to know where nothing is wrong. RUST_LOG
+    /// chooses by topic, as in RUST_LOG=cosmorama::memory=debug.
+    #[arg(short, long, global = true, action = ArgAction::Count)]
+    pub(crate) verbose: u8,
+    /// Form of messages on standard error: text or json, an object a line
+    #[arg(
+        long,
+        global = true,
+        value_enum,
+        value_name = "FORM",
+        default_value_t,
+        hide_default_value = true,
+        hide_short_help = true
+    )]
+    pub(crate) log_format: LogFormat,
 }
 
 /// Verbs of the program.

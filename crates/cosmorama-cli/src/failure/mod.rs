@@ -16,7 +16,7 @@ use thiserror::Error;
 pub(crate) use arguments::report_arguments;
 pub(crate) use panic::report_panics;
 
-use crate::console::{Console, in_options, say};
+use crate::console::{Console, in_options};
 
 /// An error in the command as it was typed: exit code 2.
 #[derive(Debug, Error)]
@@ -53,6 +53,6 @@ pub(crate) fn message(error: &anyhow::Error) -> String {
 
 /// Prints an error, its causes on the same line, and chooses the exit code.
 pub(crate) fn report(error: &anyhow::Error, console: &Console) -> ExitCode {
-    say(format_args!("error: {}", console.told(&message(error))));
+    console.error(&message(error));
     if is_usage(error) { ExitCode::from(2) } else { ExitCode::FAILURE }
 }

@@ -85,7 +85,8 @@ fn option_of_part(word: &str, typed: &Typed) -> Option<String> {
 
 /// Returns the verb's own option that is most similar to what was typed.
 fn own_option(word: &str, verb: Option<&str>) -> Option<String> {
-    let names = verb.map_or_else(|| ["help", "version", "verbose"].map(str::to_owned).to_vec(), args::options);
+    let names =
+        verb.map_or_else(|| ["help", "version", "verbose", "log-format"].map(str::to_owned).to_vec(), args::options);
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let begun = names.iter().copied().find(|name| word.len() > 2 && name.starts_with(word));
     begun.or_else(|| nearest(word, &names)).map(|name| format!("did you mean --{name}?"))

@@ -2,5 +2,6 @@
 
 pub(crate) mod compression;
 pub(crate) mod listed;
+pub(crate) mod log_format;
 pub(crate) mod number;
 pub(crate) mod progress;

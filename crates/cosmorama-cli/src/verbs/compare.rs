@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 use super::{make_folder, write_picture};
 use crate::args::{CompareArgs, Region};
-use crate::console::{Console, say};
+use crate::console::Console;
 use crate::failure::usage;
 use crate::pipe::KeptStreams;
 
@@ -60,7 +60,7 @@ pub(super) fn run(args: &CompareArgs, console: &mut Console) -> Result<ExitCode>
     let failures = failures(args, &comparison);
     let text = if args.json { json_text(args, &comparison, &failures)? } else { plain_text(&comparison) };
     console.print(&text)?;
-    failures.iter().for_each(|failure| say(format_args!("failed: {failure}")));
+    failures.iter().for_each(|failure| console.report(format_args!("failed: {failure}")));
     Ok(if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 

@@ -3,7 +3,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 use anyhow::Result;
-use cosmorama_convert::{Conversion, Diagnostic, Observer, Report, Stop, Work};
+use cosmorama_convert::{Conversion, Decision, Diagnostic, Observer, Report, Stop, Work};
 
 use crate::args::{ConvertArgs, ProgressStyle};
 use crate::console::Console;
@@ -52,7 +52,7 @@ pub(super) struct Watch<'a> {
 impl<'a> Watch<'a> {
     /// Watches work that has not begun.
     pub(super) fn new(console: &'a Console, style: ProgressStyle) -> Self {
-        Self { console, style, progress: None }
+        Self { console, style: console.progress(style), progress: None }
     }
 
     /// Clears the bar from the terminal.
@@ -68,6 +68,10 @@ impl Observer for Watch<'_> {
 
     fn diagnostic(&mut self, diagnostic: &Diagnostic) {
         self.console.warn(diagnostic);
+    }
+
+    fn decided(&mut self, decision: &Decision) {
+        self.console.decision(decision);
     }
 
     fn advance(&mut self, work: Work, fraction: f64) -> ControlFlow<Stop> {

@@ -69,6 +69,8 @@ mod output {
 mod sequence {
     mod backdrop;
     mod choices;
+    #[cfg(target_os = "linux")]
+    mod disks;
     mod motion;
     mod resume;
     #[cfg(target_os = "linux")]
@@ -88,6 +90,7 @@ mod video {
 mod usage {
     mod advice;
     mod help;
+    mod logs;
     mod messages;
     mod mistakes;
     mod verbs;

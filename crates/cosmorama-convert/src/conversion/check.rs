@@ -13,7 +13,7 @@ use crate::input::is_one_file;
 use crate::input::lists::world_file;
 use crate::job::{Content, ConvertJob, Purpose};
 use crate::settings::{Backdrop, Conversion, GeometrySettings};
-use crate::source::{ViewFiles, with_videos};
+use crate::source::{MemoryBudget, ViewFiles, with_videos};
 
 /// A conversion that has been checked as far as possible without decoding pixels.
 pub struct Checked {
@@ -26,6 +26,8 @@ pub struct Checked {
     pub(crate) diagnostics: Vec<Diagnostic>,
     pub(crate) stages: Stages,
     pub(crate) start: Instant,
+    /// Memory that may be used in all.
+    pub(crate) allowed: MemoryBudget,
 }
 
 impl Conversion {
@@ -42,6 +44,7 @@ impl Conversion {
         let settings = with_frames_at_times(with_layers(self)?)?;
         let content = Content::of(&settings)?;
         let pool = threads(settings.limits.threads)?;
+        let allowed = MemoryBudget::new(settings.limits.memory);
         let resolve =
             || stages.alone(Stage::Plan, || ConvertJob::resolve(&settings, (content, Purpose::Pictures), diagnostics));
         let job = pool.install(resolve)?;
@@ -50,7 +53,8 @@ impl Conversion {
             pool.install(|| stages.alone(Stage::Decode, check))?;
         }
         videos::check(&settings, &job)?;
-        Ok(Checked { settings, content, job, pool, diagnostics: diagnostics.clone(), stages, start })
+        let diagnostics = diagnostics.clone();
+        Ok(Checked { settings, content, job, pool, diagnostics, stages, start, allowed })
     }
 }
 

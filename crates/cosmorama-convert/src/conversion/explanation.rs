@@ -62,10 +62,10 @@ pub struct Explanation {
     /// Whether the input exists, so that it may lack something.
     has_input: bool,
     filter: FilterSettings,
-    memory: MemoryBudget,
+    pub(super) memory: MemoryBudget,
     /// Files that are read, by their real paths.
     files: HashSet<PathBuf>,
-    pool: ThreadPool,
+    pub(super) pool: ThreadPool,
 }
 
 /// Explanation of a moving camera's path.
@@ -192,6 +192,11 @@ impl Explanation {
     /// Returns the pictures that would be made.
     pub fn pictures(&self) -> &[Picture] {
         &self.pictures
+    }
+
+    /// Returns the input.
+    pub(super) fn input(&self) -> &Input {
+        &self.input
     }
 
     /// Returns the files that are read, by their real paths.

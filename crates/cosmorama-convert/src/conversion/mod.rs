@@ -2,6 +2,8 @@
 
 mod advance;
 mod check;
+mod cost;
+mod decisions;
 mod explanation;
 mod filters;
 mod observer;
@@ -13,6 +15,7 @@ mod world_light;
 
 pub use check::Checked;
 pub use check::threads;
+pub use cost::{CostedFiles, SequenceCost};
 pub use explanation::{Explanation, ExplanationSettings, PathExplanation};
 pub use filters::{FilterReport, FilterTrial, FilterTrials};
 pub use observer::{Observer, Quiet, Stop, Work};

@@ -1,6 +1,6 @@
 use std::ops::ControlFlow;
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Decision, Diagnostic};
 
 /// Request of an observer to end a conversion before its last frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,6 +25,9 @@ pub trait Observer {
 
     /// Receives a diagnostic.
     fn diagnostic(&mut self, _diagnostic: &Diagnostic) {}
+
+    /// Receives a decision, with its reason.
+    fn decided(&mut self, _decision: &Decision) {}
 
     /// Receives the fraction of a work that is done, while it goes on. The result says whether to go on.
     ///

@@ -26,6 +26,8 @@ pub struct Report {
     pub cpu_seconds: CpuSeconds,
     /// Most memory that this process has held, where the system reports it.
     pub peak_memory_bytes: Option<u64>,
+    /// Memory that was expected to be needed, at most.
+    pub estimated_memory_bytes: u64,
     /// Figures of maps of light, by frame; empty for pictures.
     pub light: Vec<LightReport>,
     /// Differences of interpolated maps from computed ones, where that is asked for.
@@ -51,6 +53,7 @@ impl Report {
             wall,
             cpu_seconds: stages.cpu_seconds(),
             peak_memory_bytes: peak_bytes(),
+            estimated_memory_bytes: 0,
             light: Vec::new(),
             interpolated: Vec::new(),
             diagnostics,

@@ -9,7 +9,7 @@ use cosmorama_spec::Spec;
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
-use super::{Checked, Observer, Report, Stop, Work, videos, watched};
+use super::{Checked, Observer, Report, Stop, Work, decisions, videos, watched};
 use crate::diagnostic::{Code, ConvertError, DEPTH, Diagnostic, Result, SCALE};
 use crate::engine::unfiltered::{OutputFile, formula, st_map};
 use crate::engine::{
@@ -28,11 +28,13 @@ impl Checked {
     /// When a file cannot be read or written, its content contradicts its header, or the observer stops the run.
     pub fn run(mut self, observer: &mut dyn Observer) -> Result<Report> {
         observer.begin(self.job.outputs.frames.len());
+        self.decisions().iter().for_each(|decision| observer.decided(decision));
         let (mut lit, mut interpolated) = (Vec::new(), Vec::new());
         let options = self.writer_options(observer)?;
         let videos = Arc::clone(&options.videos);
+        let mut estimated = self.job.estimated_bytes(self.pool.current_num_threads());
         match self.content {
-            Content::World => (lit, interpolated) = self.convert(observer, options)?,
+            Content::World => (lit, interpolated, estimated) = self.convert(observer, options)?,
             Content::StMap => self.each_file(observer, st_map::make)?,
             Content::Formula(world) => {
                 self.each_file(observer, |output| formula::picture(output, world, &options))?;
@@ -49,7 +51,7 @@ impl Checked {
             BTreeSet::from([PathBuf::from(&settings.input)])
         };
         let report = Report::new(inputs, &job.outputs, start.elapsed(), &stages, diagnostics);
-        Ok(Report { light: lit, interpolated, ..report })
+        Ok(Report { light: lit, interpolated, estimated_memory_bytes: estimated, ..report })
     }
 
     /// Returns the options of the writer. The encoders of videos are started with it.
@@ -83,11 +85,7 @@ impl Checked {
     }
 
     /// Converts the light of files.
-    fn convert(
-        &mut self,
-        observer: &mut dyn Observer,
-        options: WriterOptions,
-    ) -> Result<(Vec<LightReport>, Vec<InterpolationReport>)> {
+    fn convert(&mut self, observer: &mut dyn Observer, options: WriterOptions) -> Result<Converted> {
         let Self { settings, job, pool, stages, diagnostics, .. } = self;
         let prepare = |progress: &dyn Progress| stages.alone(Stage::Plan, || Engine::new(job, options, progress));
         let engine = watched(pool, observer, Work::Plan, prepare).and_then(Result::ok);
@@ -96,6 +94,8 @@ impl Checked {
         let tally = warnings::Tally::default();
         let mut run = Run { job, engine, stages, pool, observer, diagnostics, from, tally, is_first: true, done: 0 };
         run.tell(engine.told());
+        engine.decisions().iter().for_each(|decision| run.observer.decided(decision));
+        let estimated = pool.install(|| engine.estimated_bytes());
         let made = match &job.outputs.frames[..] {
             [] => Ok(Vec::new()),
             [frame] => run.still(frame).map(|()| Vec::new()),
@@ -120,7 +120,7 @@ impl Checked {
         let told =
             lit.iter().filter_map(|report| too_bright((job, output), (report.frame, report.level), report.overflowed));
         run.tell(told.chain(lit.first().and_then(|report| fitted(job, output, report.scale))).collect());
-        Ok((lit, interpolated))
+        Ok((lit, interpolated, estimated))
     }
 }
 
@@ -129,6 +129,9 @@ fn damaged_frames(job: &ConvertJob) -> Vec<Diagnostic> {
     let complaints = job.layers().filter_map(|layer| layer.files.videos()).flat_map(Videos::complaints);
     complaints.map(|message| Diagnostic::warning(Code::DamagedFrames, message)).collect()
 }
+
+/// Figures of maps of light, differences of interpolated ones, and the memory that was expected to be needed.
+type Converted = (Vec<LightReport>, Vec<InterpolationReport>, u64);
 
 /// Returns the warning about light that was scaled to fit the output's sample type.
 fn fitted(job: &ConvertJob, output: &str, scale: f64) -> Option<Diagnostic> {
@@ -195,11 +198,12 @@ impl Run<'_> {
         let light = pool.install(|| light_of(job, engine, stages, frame))?;
         self.look(frame, &light);
         let pictures = stages.alone(Stage::Filter, || self.render(frame, &light))?;
-        let carried = light.carried();
+        let (carried, origin) = (light.carried(), job.origin_of(frame.frame)?);
+        light.check_unchanged(&*job.files)?;
         drop(light);
         let write = || {
             let outputs = frame.files.par_iter().zip(pictures);
-            let words = FrameWords { place: 0, carried, origin: job.origin_of(frame.frame)?.map(Arc::from) };
+            let words = FrameWords { place: 0, carried, origin: origin.map(Arc::from) };
             let save = |path, levels| engine.writer().save(words.clone(), levels, path, Threads::All);
             outputs.try_for_each(|((_, path), levels)| save(path, levels))
         };
@@ -229,6 +233,7 @@ impl Watcher for Run<'_> {
 
     fn done(&mut self, frame: &FrameOutputs) -> Result<()> {
         self.done += 1;
+        decisions::of_done(self.job, frame).iter().for_each(|decision| self.observer.decided(decision));
         tell_done(self.observer, frame.frame, (self.done, self.job.outputs.frames.len()))
     }
 }

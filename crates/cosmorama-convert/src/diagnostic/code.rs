@@ -34,6 +34,8 @@ pub enum Code {
     SameFile,
     /// Files do not cover what the output shows.
     Uncovered,
+    /// The disk may not have room for all outputs.
+    DiskSpace,
     /// More memory is needed than permitted.
     Memory,
     /// An observer stopped the conversion early.

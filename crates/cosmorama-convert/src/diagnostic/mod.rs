@@ -1,12 +1,14 @@
 //! Diagnostics of a conversion: typed, and returned to the caller instead of printed.
 
 mod code;
+mod decision;
 mod error;
 mod mark;
 mod message;
 mod setting;
 
 pub use code::Code;
+pub use decision::{Decision, Topic};
 pub use error::{ConvertError, Outcome, Result};
 pub use message::{Message, Part};
 pub use setting::Setting;

@@ -118,6 +118,8 @@ settings! {
     Strip "strip" STRIP,
     /// Limit of memory.
     Memory "memory" MEMORY,
+    /// Number of threads.
+    Threads "threads" THREADS,
     /// Whether an st map is written instead of a picture.
     StMap "st-map" ST_MAP,
     /// Part of OpenEXR files.

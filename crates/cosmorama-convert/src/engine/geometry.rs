@@ -1,11 +1,10 @@
-use cosmorama::raster::{Channels, Depth, FixedCodec, FixedDecoder, FixedLight, FramePool, Image, Rgba};
+use cosmorama::raster::{FixedCodec, FixedLight, FramePool, Image, Rgba};
 use cosmorama::render::{Arithmetic, Plan, Progress, Stopped, Watched};
 
 use crate::colour::LayerContent;
 use crate::diagnostic::{Code, Diagnostic, KERNEL, MEMORY};
 use crate::engine::{Balance, BalancedLight, Shares, balance};
 use crate::job::ConvertJob;
-use crate::job::coverage::Coverage;
 use crate::target::TargetView;
 
 /// Geometry of a job, compiled for each target view where that pays and fits into memory.
@@ -61,6 +60,11 @@ impl Geometry {
         }
         let balance = Balance::of((job, views), groups, &plans);
         Ok((Self { plans, arithmetic, balance }, warnings))
+    }
+
+    /// Returns the number of plans that are kept.
+    pub(crate) fn kept(&self) -> usize {
+        self.plans.iter().flatten().count()
     }
 
     /// Returns the bytes that it holds.
@@ -136,7 +140,7 @@ fn plans(
     warnings: &mut Vec<Diagnostic>,
 ) -> Result<Vec<Option<Plan>>, Stopped> {
     let mut shares = Shares::new(progress, views.iter().map(|target| &target.view));
-    let left = job.memory.left_for_plan(&job.input, &job.target, rayon::current_num_threads());
+    let left = job.memory.left_for_plan(job.frame_needs(), rayon::current_num_threads());
     let (mut left, mut lacks_room) = (left.saturating_sub(taken), false);
     let plan_of = |target: &TargetView| {
         let (resampler, share) = (job.resampler(target), shares.next(&target.view));
@@ -157,31 +161,7 @@ fn plans(
 
 /// Returns the arithmetic of a job's plans.
 pub(crate) fn arithmetic(job: &ConvertJob) -> Arithmetic {
-    if codec(job).is_some() { Arithmetic::Fixed } else { Arithmetic::Float }
-}
-
-/// Returns the integer codec of a job; `None` unless its pictures are opaque, of 8 bits, and fit 15-bit light.
-pub(crate) fn codec(job: &ConvertJob) -> Option<FixedCodec> {
-    let light = &job.light;
-    let is_possible = Arithmetic::Fixed.has_plan_of(job.filter.kind)
-        // The light of many moments is summed.
-        && !job.is_blurred
-        // A factor of the balance may raise a texel above white.
-        && !balance::is_asked_for(job)
-        && light.channels == Channels::Rgb
-        && light.depth == Depth::Eight
-        && light.background.alpha() >= 1.0
-        && job.backdrop.is_none()
-        && job.opacity >= 1.0
-        && matches!(job.coverage, Coverage::Complete)
-        && job.input.present().all(|(_, header, _)| {
-            let colours = light.colours(header.channels, header.depth, &header.metadata);
-            header.depth == Depth::Eight
-                && !header.channels.has_alpha()
-                && colours.conversion.is_none()
-                && FixedDecoder::new(&colours.transfer).is_some()
-        });
-    is_possible.then(|| FixedCodec::new(&light.transfer, light.background)).flatten()
+    if job.fixed_codec().is_some() { Arithmetic::Fixed } else { Arithmetic::Float }
 }
 
 #[cfg(test)]

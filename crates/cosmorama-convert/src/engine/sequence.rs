@@ -11,7 +11,6 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 
 use cosmorama::raster::Threads;
-use cosmorama_io::Carried;
 use rayon::{Scope, ThreadPool};
 
 use crate::diagnostic::{InPlace, Result, bail};
@@ -128,7 +127,7 @@ impl<'a> Sequence<'a> {
             for (place, pictures) in interpolated.into_iter().chain([(place, pictures)]) {
                 queues.finish_written(written - 1, watcher)?;
                 let frame = &frames[place - 1];
-                let being_written = self.have_written((scope, failure, place), frame, (pictures, light.carried()))?;
+                let being_written = self.have_written((scope, failure, place), frame, (pictures, &light))?;
                 queues.written.push_back((frame, being_written));
             }
         }
@@ -143,7 +142,7 @@ impl<'a> Sequence<'a> {
         let files = FrameFile::all(job, frame.frame, which).into_iter();
         // Maps of light are interpolated between frames, of which none may be missing.
         let may_lack = job.lighting.is_none();
-        let read = |file: FrameFile| {
+        let read = |file: FrameFile<'a>| {
             let images = move || match file.read(job, engine.pool()) {
                 Err(error) if may_lack && error.is_left_out() => Ok(None),
                 images => images.map(Some),
@@ -158,14 +157,15 @@ impl<'a> Sequence<'a> {
         &self,
         turn: Turn<'_, 's>,
         frame: &'a FrameOutputs,
-        (pictures, carried): (Vec<Levels>, Option<Arc<Carried>>),
+        (pictures, light): (Vec<Levels>, &FrameLight),
     ) -> Result<Results<()>>
     where
         'a: 's,
     {
         let Self { job, engine, stages, .. } = *self;
         let origin = job.origin_of(frame.frame)?.map(Arc::<str>::from);
-        let words = FrameWords { place: turn.2 - 1, carried, origin };
+        light.check_unchanged(&*job.files).at(|| named(frame))?;
+        let words = FrameWords { place: turn.2 - 1, carried: light.carried(), origin };
         let write = |((_, path), levels): (&'a (usize, std::path::PathBuf), Levels)| {
             let path: &'a Path = path;
             let words = words.clone();

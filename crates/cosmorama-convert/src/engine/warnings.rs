@@ -12,7 +12,7 @@ use cosmorama_spec::Spec;
 use crate::colour::{StraightAlpha, ThinAlpha};
 use crate::detect::disc;
 use crate::diagnostic::{Code, Diagnostic, FILTER, KERNEL, Remedy, Setting};
-use crate::engine::{Counts, FrameLight, balance};
+use crate::engine::{Counts, FrameLight};
 use crate::job::ConvertJob;
 
 /// Fraction of a world's light in bright sources above which a change of it shows in lighting.
@@ -108,7 +108,7 @@ impl Tally {
 
 /// Warns where a whole world is made from light with bright sources, which few filters keep.
 pub(crate) fn suns(job: &ConvertJob, light: &FrameLight) -> Option<Diagnostic> {
-    if job.lighting.is_some() || balance::is_asked_for(job) || !is_of_any_range(job) || !shows_the_world(job) {
+    if job.lighting.is_some() || job.is_balance_asked_for() || !is_of_any_range(job) || !shows_the_world(job) {
         return None;
     }
     let parts = job.worlds.iter().enumerate();

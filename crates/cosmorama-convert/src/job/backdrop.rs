@@ -9,7 +9,7 @@ use cosmorama_io::{Choice, FrameList};
 use cosmorama_spec::{FrameMap, Missing};
 
 use super::convert_job::DECODED_PART;
-use super::{Content, ConvertJob, Outputs};
+use super::{Content, ConvertJob, FrameNeeds, Held, Outputs};
 use crate::colour::{LayerPlan, Light};
 use crate::diagnostic::{BACKDROP, BACKDROP_FRAMES, BACKDROP_FROM, Diagnostic, FROM, Result, ST_MAP, bail, usage};
 use crate::input::Input;
@@ -153,7 +153,7 @@ impl FoundBackdrop {
         let backdrop = match further {
             None => None,
             Some(found) => {
-                let own = memory.beside_frame(&input, front.target);
+                let own = memory.beside_frame(FrameNeeds::of(&input, &[], front.target, Held::any()));
                 let job = found.resolve(&Front { memory: own, ..*front }, warnings)?;
                 let (job, left) = job.share(memory);
                 memory = left;
@@ -185,6 +185,7 @@ impl FoundBackdrop {
             opacity: settings.opacity,
             missing,
             memory,
+            prepared: 0,
             decoded,
             input,
         };

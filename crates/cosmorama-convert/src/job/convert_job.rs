@@ -5,8 +5,8 @@ use cosmorama::camera::View;
 use cosmorama::filter::{FilterKind, FilterSettings, Kernel};
 use cosmorama::lighting::PreparedLight;
 use cosmorama::motion::{Exposure, Moment, Pose};
-use cosmorama::raster::Rgba;
-use cosmorama::render::Resampler;
+use cosmorama::raster::{Channels, Depth, FixedCodec, FixedDecoder, Rgba, Transfer};
+use cosmorama::render::{Arithmetic, Resampler};
 use cosmorama::world::World;
 use cosmorama_builtin::BuiltinWorld;
 use cosmorama_io::{Choice, Format, FrameList};
@@ -15,16 +15,16 @@ use cosmorama_spec::Missing;
 use super::Content;
 use super::backdrop::{FoundBackdrop, Front};
 use super::gaps::Shot;
-use super::memory_needs::gathered_bytes;
+use super::memory_needs::{FrameNeeds, Held, gathered_bytes, program_bytes};
 use super::options::{check_file_options, filter};
 use crate::colour::{LayerPlan, Light, check_choice, check_labels, check_light};
 use crate::detect::unless_damaged;
 use crate::diagnostic::{Code, Diagnostic, FILTER, IN_PATH, MISSING, MOTION, PATH, Result, SCALE, SHUTTER, YAW, usage};
 use crate::input::Input;
 use crate::input::spec_files::st_map::settled;
-use crate::job::Outputs;
 use crate::job::coverage::{Coverage, whole_worlds};
 use crate::job::origin::Origin;
+use crate::job::{Outputs, Space};
 use crate::settings::{BlurMethod, Conversion, GeometrySettings, LightSettings};
 use crate::source::{Access, ChosenFiles, DecodedPicture, Files, MemoryBudget};
 use crate::target::{Movement, Target, TargetView, name_of_level, of_light, shape_warning, time, whole_chain};
@@ -67,6 +67,8 @@ pub(crate) struct ConvertJob {
     pub(super) missing: Missing,
     /// Memory budget.
     pub(crate) memory: MemoryBudget,
+    /// Bytes that a filter or light makes of the input, with copies of pictures.
+    pub(crate) prepared: u64,
     /// A picture that has been decoded to see what it is.
     pub(crate) decoded: DecodedPicture,
 }
@@ -185,7 +187,7 @@ impl ConvertJob {
             Some(found) => {
                 let frames = &input.frames[..];
                 let (movement, filter) = (movement.as_ref(), filter);
-                let own = memory.beside_frame(&input, &target);
+                let own = memory.beside_frame(FrameNeeds::of(&input, &[], &target, Held::any()));
                 let job = found.resolve(&Front { frames, target: &target, movement, filter, memory: own }, warnings)?;
                 Some(job)
             }
@@ -213,7 +215,7 @@ impl ConvertJob {
             )));
         }
         content.settle(settings, &target, &mut light, warnings)?;
-        memory.check_outputs(&target)?;
+        memory.check_outputs(&target, &light)?;
         let outputs = match purpose {
             Purpose::Pictures => Outputs::plan(settings, (&input, backdrop.as_deref()), &target)?,
             Purpose::Light => Outputs::none(&input),
@@ -242,10 +244,12 @@ impl ConvertJob {
             opacity: settings.opacity,
             missing,
             memory,
+            prepared: 0,
             decoded,
         };
         job.leave_finished(settings, purpose)?;
         warnings.extend(job.outputs.warning());
+        warnings.extend(Space::of(&job, settings.compression).warning(&job.outputs));
         job.check_scale()?;
         if content.has_files() {
             let first = job.input.frames.first().map_or_else(Vec::new, |frame| job.input.paths(*frame));
@@ -293,33 +297,104 @@ impl ConvertJob {
             Some(movement) => Shot::all(movement, &self.target.views, frames)?,
             None => vec![Shot { frames: Vec::new(), views: self.target.views.clone() }],
         };
-        let Self { input, target, filter, memory, .. } = self;
+        let Self { input, filter, memory, .. } = self;
         let whole = whole_worlds(input, *memory)?;
-        if let Some(lighting) = &self.lighting {
-            let (coverage, worlds) = Coverage::of_sphere(input, whole, self.missing)?;
-            memory.check_frame(input, target)?;
-            let blocks: u64 = worlds.iter().flat_map(World::sources).map(|source| gathered_bytes(&source.view)).sum();
-            let bands = PreparedLight::bytes_for(&lighting.lobes()) as u64 * worlds.len() as u64;
-            let memory = memory.beside_prepared(blocks.saturating_add(bands), input, target)?;
-            // The map before, the one after, and all between; another where the error is measured.
-            let copies = lighting.every.map_or(0, |every| every.frames.min(input.frames.len()) + 2);
-            self.memory = memory.beside_maps(copies as u64, input, target)?;
-            (self.coverage, self.worlds) = (coverage, worlds);
-            return Ok(());
+        if self.lighting.is_some() {
+            (self.coverage, self.worlds) = Coverage::of_sphere(input, whole, self.missing)?;
+            return self.keep_for_light();
         }
-        let (coverage, worlds) = Coverage::check(input, whole, &shots, filter, self.missing, warnings)?;
-        for world in &worlds {
+        (self.coverage, self.worlds) = Coverage::check(input, whole, &shots, filter, self.missing, warnings)?;
+        for world in &self.worlds {
             filter.check(world).map_err(|error| usage(format!("{FILTER}: {error}")))?;
         }
-        memory.check_frame(input, target)?;
-        let prepared = target.views.iter().map(|view| {
-            let world = &worlds[view.world(worlds.len())];
-            Resampler { world, target: &view.view, filter: *filter }.filter_bytes() as u64
-        });
-        let memory = memory.beside_prepared(prepared.max().unwrap_or(0), input, target)?;
-        self.memory = memory.beside_channels(&mut self.layers, input, target)?;
-        (self.coverage, self.worlds) = (coverage, worlds);
+        self.memory.check_frame(self.frame_needs(), &self.input, &self.target)?;
+        let prepared = self.target.views.iter().map(|target| self.resampler(target).filter_bytes() as u64);
+        self.prepared = prepared.max().unwrap_or(0);
+        let needs = self.frame_needs();
+        self.memory.check_prepared(needs)?;
+        self.memory = self.memory.beside_channels(&mut self.layers, needs, (&self.input, &self.target))?;
         Ok(())
+    }
+
+    /// Checks that memory suffices for maps of light, with what is gathered for them.
+    fn keep_for_light(&mut self) -> Result<()> {
+        self.memory.check_frame(self.frame_needs(), &self.input, &self.target)?;
+        let Some(lighting) = &self.lighting else { return Ok(()) };
+        let sources = self.worlds.iter().flat_map(World::sources);
+        let blocks: u64 = sources.map(|source| gathered_bytes(&source.view)).fold(0, u64::saturating_add);
+        let bands = PreparedLight::bytes_for(&lighting.lobes()) as u64 * self.worlds.len() as u64;
+        // The map before, the one after, and all between; another where the error is measured.
+        let copies = lighting.every.map_or(0, |every| every.frames.min(self.input.frames.len()) + 2);
+        let pictures = self.frame_needs().pictures();
+        // Maps are assembled to pictures when all are made.
+        self.prepared = blocks.saturating_add(bands).saturating_add(pictures);
+        self.memory.check_prepared(self.frame_needs())?;
+        let maps = pictures.saturating_mul(copies as u64);
+        self.prepared = self.prepared.saturating_add(maps);
+        self.memory.check_maps(self.frame_needs(), maps)
+    }
+
+    /// Returns the memory that its frames need, without what lies behind and without further channels.
+    pub(crate) fn frame_needs(&self) -> FrameNeeds {
+        let held = if self.fixed_codec().is_some() { Held::INTEGERS } else { Held::floats(&self.light) };
+        let needs = FrameNeeds::of(&self.input, &self.worlds, &self.target, held).with_prepared(self.prepared);
+        if self.filter.kind != FilterKind::Ewa || self.lighting.is_some() {
+            return needs;
+        }
+        let views = self.target.views.iter().map(|target| (target.view.width(), target.view.height()));
+        needs.with_bands(self.input.texels() as u64, views)
+    }
+
+    /// Returns the memory that a single frame needs in all: with the program, further channels, and what lies behind.
+    pub(crate) fn estimated_bytes(&self, threads: usize) -> u64 {
+        let of_layer = |job: &Self| {
+            let made = job.target.files.iter().map(|file| file.sheet.size);
+            let made = made.map(|(width, height)| width as u64 * height as u64).fold(0, u64::saturating_add);
+            job.frame_needs().peak().saturating_add(job.layers.bytes(job.input.texels() as u64, made))
+        };
+        self.layers().map(of_layer).fold(program_bytes(threads), u64::saturating_add)
+    }
+
+    /// Returns the codec of pictures that are filtered in integers; `None` unless all are opaque, of 8 bits, and fit 15-bit light.
+    pub(crate) fn fixed_codec(&self) -> Option<FixedCodec> {
+        let light = &self.light;
+        let is_possible = Arithmetic::Fixed.has_plan_of(self.filter.kind)
+            && self.lighting.is_none()
+            // The light of many moments is summed.
+            && !self.is_blurred
+            // A factor of the balance may raise a texel above white.
+            && !self.is_balance_asked_for()
+            && light.channels == Channels::Rgb
+            && light.depth == Depth::Eight
+            && light.background.alpha() >= 1.0
+            && self.backdrop.is_none()
+            && self.opacity >= 1.0
+            && self.is_complete()
+            && self.takes_integers();
+        is_possible.then(|| FixedCodec::new(&light.transfer, light.background)).flatten()
+    }
+
+    /// Returns whether all inputs are opaque, of 8 bits, and fit 15-bit light.
+    fn takes_integers(&self) -> bool {
+        // Tables of a transfer function are made once, since a world may have thousands of views.
+        let mut known: Option<Transfer> = None;
+        self.input.present().all(|(_, header, _)| {
+            let colours = self.light.colours(header.channels, header.depth, &header.metadata);
+            let fits = known.as_ref() == Some(&colours.transfer) || FixedDecoder::new(&colours.transfer).is_some();
+            known = Some(colours.transfer);
+            fits && header.depth == Depth::Eight && !header.channels.has_alpha() && colours.conversion.is_none()
+        })
+    }
+
+    /// Returns whether the filter should keep light and can be balanced: `--kernel light` without anti-ringing, whose
+    /// weights depend on the light.
+    pub(crate) fn is_balance_asked_for(&self) -> bool {
+        self.filter.kind == FilterKind::Ewa && self.filter.kernel == Kernel::LIGHT && !self.filter.anti_ringing
+    }
+
+    /// Returns whether the views cover every direction that is wanted.
+    pub(crate) fn is_complete(&self) -> bool {
+        matches!(self.coverage, Coverage::Complete)
     }
 
     /// Returns the camera's pose in a frame; `None` where it does not move.
@@ -362,7 +437,9 @@ impl ConvertJob {
                     let message = "channels beside the picture are not blurred, and are those of the frame's own time";
                     warnings.push(Diagnostic::warning(Code::NoEffect, message));
                 }
-                self.memory = self.memory.beside_sum(&self.input, &self.target)?;
+                let sum = self.frame_needs().pictures();
+                self.prepared = self.prepared.saturating_add(sum);
+                self.memory.check_sum(self.frame_needs(), sum)?;
                 break;
             }
         }
@@ -408,7 +485,7 @@ impl ConvertJob {
 
     /// Returns the budgets of this backdrop and of the input before it: each has its own frame and half of what is left.
     pub(super) fn share(mut self, all: MemoryBudget) -> (Self, MemoryBudget) {
-        let half = self.memory.beside_frame(&self.input, &self.target).bytes / 2;
+        let half = self.memory.beside_frame(self.frame_needs()).bytes / 2;
         self.memory = self.memory.beside(half);
         let left = all.beside(self.memory.bytes);
         (self, left)

@@ -1,28 +1,212 @@
 //! Memory that a conversion needs, held against its budget before any of it is taken.
+//!
+//! A frame is read, then filtered, then written, and each of these frees what the next does not need. So it takes what the greediest of
+//! them holds, and not the sum of all.
 
 use cosmorama::camera::View;
 use cosmorama::projection::ProjectionKind;
-use cosmorama::raster::Rgba;
-use cosmorama_io::Format;
+use cosmorama::raster::{FixedLight, Rgba};
+use cosmorama::world::World;
+use cosmorama_io::{Format, Header};
 
-use crate::colour::LayerPlan;
+use crate::colour::{LayerPlan, Light};
 use crate::diagnostic::{CHANNELS, EVERY, Result, SHUTTER};
 use crate::input::{Input, InputView};
 use crate::job::{FrameMemory, QueueDepth};
 use crate::source::MemoryBudget;
-use crate::source::memory_budget::{area, human, light_bytes, read_bytes};
+use crate::source::memory_budget::{area, human, read_bytes};
 use crate::target::{Sheet, Target};
+
+/// Bytes in which a job holds a texel of light, a pixel of a picture, and a pixel of its file's samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Held {
+    /// Whether texels and pixels are integers.
+    is_fixed: bool,
+    /// Samples of a pixel, while its picture is encoded; those of integers are the picture itself.
+    encoded: u64,
+}
+
+impl Held {
+    /// Opaque pictures of 8 bits, filtered in integers.
+    pub(crate) const INTEGERS: Self = Self { is_fixed: true, encoded: 0 };
+
+    /// Returns pictures of light that are encoded as files want them.
+    pub(crate) fn floats(light: &Light) -> Self {
+        Self { is_fixed: false, encoded: light.file_bytes((1, 1)) }
+    }
+
+    /// Returns pictures of light whose samples take so many bytes a pixel.
+    pub(crate) const fn of_samples(encoded: u64) -> Self {
+        Self { is_fixed: false, encoded }
+    }
+
+    /// Returns pictures of light whose encoding is not known yet: as large as any.
+    pub(crate) const fn any() -> Self {
+        Self { is_fixed: false, encoded: size_of::<Rgba>() as u64 }
+    }
+
+    /// Returns the bytes of a view's light, with the padding of its rows.
+    fn light(self, (width, height): (usize, usize)) -> u64 {
+        if self.is_fixed {
+            area((FixedLight::pitch(width), height)).saturating_mul(size_of::<[i16; 4]>() as u64)
+        } else {
+            area((width, height)).saturating_mul(size_of::<Rgba>() as u64)
+        }
+    }
+
+    fn pixel(self) -> u64 {
+        if self.is_fixed { size_of::<[u8; 3]>() as u64 } else { size_of::<Rgba>() as u64 }
+    }
+}
+
+/// Memory of a frame in bytes, by what takes it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct FrameNeeds {
+    /// Solid angles and tables, which all frames share.
+    pub(crate) shared: u64,
+    /// Levels, sums or blocks that filter or light make of the input, and copies of pictures.
+    pub(crate) prepared: u64,
+    /// Samples of files that change from frame to frame, and of those that do not.
+    samples: Samples,
+    /// Light of all texels.
+    pub(crate) light: u64,
+    /// Pictures.
+    pictures: u64,
+    /// Largest part of a sheet, which is made by itself.
+    piece: u64,
+    /// Weights of the rows that threads work on.
+    bands: u64,
+    /// Samples of the pictures.
+    encoded: u64,
+}
+
+/// Bytes of a frame's samples.
+#[derive(Clone, Copy, Debug, Default)]
+struct Samples {
+    all: u64,
+    /// Of files that change from frame to frame.
+    moving: u64,
+    /// Number of these files.
+    files: usize,
+    /// Blocks and copies of the decoders.
+    scratch: u64,
+}
+
+impl FrameNeeds {
+    /// Returns the needs of a job's frames. Those of `worlds` are exact where there are any.
+    pub(crate) fn of(input: &Input, worlds: &[World], target: &Target, held: Held) -> Self {
+        let sheets = || target.files.iter().flat_map(|file| file.levels());
+        let pixels = sheets().map(|sheet| area(sheet.size)).fold(0, u64::saturating_add);
+        let is_piece = |sheet: &&Sheet| sheet.pieces.len() > 1;
+        let parts =
+            sheets().filter(is_piece).flat_map(|sheet| &sheet.pieces).filter_map(|(index, _)| target.views.get(*index));
+        let largest = parts.map(|target| pixels_of(&target.view)).max().unwrap_or(0);
+        let views = target.views.iter().map(|target| &target.view);
+        Self::of_pictures(input, worlds, (pixels, largest), held).beside_tables(views)
+    }
+
+    /// Returns the needs of pictures of so many pixels, of which the largest part is made by itself.
+    pub(crate) fn of_pictures(input: &Input, worlds: &[World], (pixels, largest): (u64, u64), held: Held) -> Self {
+        let size = |header: &Header| (header.width, header.height);
+        let light = if input.present().next().is_some() {
+            input.present().map(|(_, header, _)| held.light(size(header))).fold(0, u64::saturating_add)
+        } else {
+            let planned = input.views().map(|view| held.light((view.nominal.width(), view.nominal.height())));
+            planned.fold(0, u64::saturating_add)
+        };
+        let needs = Self {
+            shared: solid_angle_bytes(input, worlds),
+            prepared: 0,
+            samples: Samples::of(input),
+            light,
+            pictures: pixels.saturating_mul(held.pixel()),
+            piece: largest.saturating_mul(held.pixel()),
+            bands: 0,
+            encoded: pixels.saturating_mul(held.encoded),
+        };
+        needs.beside_tables(input.views().map(|view| &view.nominal))
+    }
+
+    /// Adds the tables of views' projections.
+    fn beside_tables<'v>(self, views: impl Iterator<Item = &'v View>) -> Self {
+        Self { shared: views.map(table_bytes).fold(self.shared, u64::saturating_add), ..self }
+    }
+
+    /// Adds the weights of the rows of views of these sizes that threads work on. Where texels are far more than pixels, there is about one
+    /// weight for each texel.
+    pub(crate) fn with_bands(self, texels: u64, views: impl Iterator<Item = (usize, usize)>) -> Self {
+        let rows = BAND_ROWS.saturating_mul(rayon::current_num_threads() as u64);
+        let bytes = |(width, height): (usize, usize)| {
+            let all = texels.saturating_add(area((width, height))).saturating_mul(WEIGHT);
+            all / (height as u64).max(1) * rows.min(height as u64)
+        };
+        Self { bands: views.map(bytes).max().unwrap_or(0), ..self }
+    }
+
+    /// Adds what is made of the input before pictures are, or copies of pictures.
+    pub(crate) fn with_prepared(self, bytes: u64) -> Self {
+        Self { prepared: self.prepared.saturating_add(bytes), ..self }
+    }
+
+    /// Returns the bytes that a single frame takes at once, at most, without those of the program.
+    pub(crate) fn peak(self) -> u64 {
+        let Samples { all, scratch, .. } = self.samples;
+        let read = sum([all, scratch.max(self.light)]);
+        let filtered = sum([self.light, self.prepared, self.pictures, self.piece, self.bands]);
+        let written = sum([self.pictures, self.encoded]);
+        self.shared.saturating_add(read.max(filtered).max(written))
+    }
+
+    /// Returns the bytes of a frame of a sequence, without what all share: the next one is read, and the one before written, while it
+    /// is made.
+    fn in_sequence(self) -> FrameMemory {
+        let Samples { all, moving, scratch, .. } = self.samples;
+        let written = self.pictures.saturating_add(self.encoded);
+        let once = sum([scratch, self.light, self.prepared, self.piece, self.bands]);
+        FrameMemory { all: sum([all, once, written]), read: moving, written }
+    }
+
+    /// Returns the bytes of the pictures.
+    pub(crate) fn pictures(self) -> u64 {
+        self.pictures
+    }
+}
+
+impl Samples {
+    fn of(input: &Input) -> Self {
+        let mut found = Self::default();
+        for (view, header, _) in input.present() {
+            // Parts of a file, and turned pictures, are copies beside the whole.
+            let is_copied = view.part.is_some() || header.metadata.orientation.is_some();
+            let bytes = read_bytes(header).saturating_mul(if is_copied { 2 } else { 1 });
+            found.all = found.all.saturating_add(bytes);
+            found.scratch = found.scratch.saturating_add(scratch_bytes(header));
+            if view.files.sequence().is_some() {
+                found.moving = found.moving.saturating_add(bytes);
+                found.files += 1;
+            }
+        }
+        if input.present().next().is_none() {
+            // Of inputs that do not exist yet, the usual pictures: three samples of 8 bits.
+            let planned = input.views().map(|view| pixels_of(&view.nominal).saturating_mul(3));
+            found.all = planned.fold(0, u64::saturating_add);
+        }
+        found.scratch = found.scratch.min(MOST_SCRATCH.saturating_mul(rayon::current_num_threads() as u64));
+        found
+    }
+}
 
 impl MemoryBudget {
     /// Checks that the geometry of whole pictures, and the light of the largest file, fit before memory is allocated. A
     /// small file may declare a huge size, or be a window of a huge canvas.
     pub(crate) fn check_pictures(self, input: &Input) -> Result<()> {
-        let texels = |view: &InputView| pixels(&view.nominal);
-        let geometry = input.views().map(texels).fold(0, u64::saturating_add).saturating_mul(SOLID_ANGLE);
         let tables = input.views().map(|view| table_bytes(&view.nominal)).fold(0, u64::saturating_add);
-        let light = input.present().map(|(_, header, _)| light_bytes(header)).max().unwrap_or(0);
-        let needed = geometry.saturating_add(tables).saturating_add(light);
-        let largest = input.views().max_by_key(|view| texels(view)).map_or_else(String::new, |view| {
+        // At least, since pictures of 8 bits may be held in integers.
+        let light =
+            |header: &Header| Held::INTEGERS.light((header.width, header.height)).saturating_add(read_bytes(header));
+        let light = input.present().map(|(_, header, _)| light(header)).max().unwrap_or(0);
+        let needed = sum([solid_angle_bytes(input, &[]), tables, light]);
+        let largest = input.views().max_by_key(|view| pixels_of(&view.nominal)).map_or_else(String::new, |view| {
             let (width, height) = (view.nominal.width(), view.nominal.height());
             format!("; the largest whole picture, {}, has {width}x{height} pixels", view.name)
         });
@@ -30,8 +214,12 @@ impl MemoryBudget {
     }
 
     /// Checks that the outputs of a frame fit, before anything is made.
-    pub(crate) fn check_outputs(self, target: &Target) -> Result<()> {
-        self.allow(output_bytes(target), "a frame", &describe(target, "; "))
+    pub(crate) fn check_outputs(self, target: &Target, light: &Light) -> Result<()> {
+        let pixels = target.files.iter().flat_map(|file| file.levels()).map(|sheet| area(sheet.size));
+        let pixels = pixels.fold(0, u64::saturating_add);
+        // Each exists as a picture, in one form or the other, or as samples.
+        let least = light.file_bytes((1, 1)).min(Held::INTEGERS.pixel());
+        self.allow(pixels.saturating_mul(least), "a frame", &describe(target, "; "))
     }
 
     /// Checks that pictures of these sizes would fit in a frame, although they are only described.
@@ -39,11 +227,12 @@ impl MemoryBudget {
         let sizes: Vec<(usize, usize)> = sizes.into_iter().collect();
         let largest = sizes.iter().max_by_key(|size| area(**size));
         let why = largest.map_or_else(String::new, |(width, height)| format!("; the output {width}x{height}"));
-        self.allow(pixel_bytes(sizes), "a frame", &why)
+        let pixels = sizes.into_iter().map(area).fold(0, u64::saturating_add);
+        self.allow(pixels.saturating_mul(Held::INTEGERS.pixel()), "a frame", &why)
     }
 
     /// Checks that a frame with the light of all wanted views fits, before memory is allocated.
-    pub(crate) fn check_frame(self, input: &Input, target: &Target) -> Result<()> {
+    pub(crate) fn check_frame(self, needs: FrameNeeds, input: &Input, target: &Target) -> Result<()> {
         let largest = input.present().max_by_key(|(_, header, _)| header.width.saturating_mul(header.height));
         let largest = largest.map_or_else(String::new, |(view, header, _)| {
             format!(
@@ -53,51 +242,56 @@ impl MemoryBudget {
                 header.height
             )
         });
-        self.allow(frame_bytes(input, target), "a frame", &(largest + &describe(target, ", and ")))
+        self.allow(with_program(needs.peak()), "a frame", &(largest + &describe(target, ", and ")))
+    }
+
+    /// Checks that things under a world fit, which need so many bytes beside the program. Returns the bytes of all.
+    ///
+    /// # Errors
+    /// When they do not.
+    pub fn check_things(self, bytes: u64, threads: usize) -> Result<u64> {
+        self.allow(with_program(bytes), "the picture", "; its world and its size decide")?;
+        Ok(bytes.saturating_add(program_bytes(threads)))
     }
 
     /// Returns the budget that is left beside a frame.
-    pub(crate) fn beside_frame(self, input: &Input, target: &Target) -> Self {
-        self.beside(frame_bytes(input, target))
+    pub(crate) fn beside_frame(self, needs: FrameNeeds) -> Self {
+        self.beside(needs.peak())
     }
 
-    /// Returns the budget that is left beside what a filter or light prepares of the input, which frames do one after the
-    /// other. It is an error if a frame and that do not fit.
-    pub(crate) fn beside_prepared(self, prepared: u64, input: &Input, target: &Target) -> Result<Self> {
-        let needed = frame_bytes(input, target).saturating_add(prepared);
-        let why = format!("; what is prepared of the input is {} of it", human(prepared));
-        self.allow(needed, "a frame", &why)?;
-        Ok(self.beside(prepared))
+    /// Checks that a frame fits together with what a filter or light prepares of the input, which frames do one after the other.
+    pub(crate) fn check_prepared(self, needs: FrameNeeds) -> Result<()> {
+        let why = format!("; what is prepared of the input is {} of it", human(needs.prepared));
+        self.allow(with_program(needs.peak()), "a frame", &why)
     }
 
-    /// Returns the budget that is left beside the sum of the pictures under a shutter. It is an error if a frame and that
-    /// do not fit.
-    pub(crate) fn beside_sum(self, input: &Input, target: &Target) -> Result<Self> {
-        let sum = output_bytes(target) / 2;
+    /// Checks that a frame fits together with the sum of the pictures under a shutter, of so many bytes.
+    pub(crate) fn check_sum(self, needs: FrameNeeds, sum: u64) -> Result<()> {
         let why = format!("; the sum of its moments, for {SHUTTER}, is {} of it", human(sum));
-        self.allow(frame_bytes(input, target).saturating_add(sum), "a frame", &why)?;
-        Ok(self.beside(sum))
+        self.allow(with_program(needs.peak()), "a frame", &why)
     }
 
-    /// Returns the budget that is left beside copies of the maps, between which others are interpolated. It is an error if a frame
-    /// and they do not fit.
-    pub(crate) fn beside_maps(self, copies: u64, input: &Input, target: &Target) -> Result<Self> {
-        let maps = (output_bytes(target) / 2).saturating_mul(copies);
+    /// Checks that a frame fits together with copies of the maps, between which others are interpolated.
+    pub(crate) fn check_maps(self, needs: FrameNeeds, maps: u64) -> Result<()> {
         let why = format!("; the maps between two that are computed, for {EVERY}, are {} of it", human(maps));
-        self.allow(frame_bytes(input, target).saturating_add(maps), "a frame", &why)?;
-        Ok(self.beside(maps))
+        self.allow(with_program(needs.peak()), "a frame", &why)
     }
 
     /// Chooses how many further channels are read at once, and returns the budget that is left beside all of them. It
     /// is an error if not even the largest group of them fits beside a frame.
-    pub(crate) fn beside_channels(self, layers: &mut LayerPlan, input: &Input, target: &Target) -> Result<Self> {
+    pub(crate) fn beside_channels(
+        self,
+        layers: &mut LayerPlan,
+        needs: FrameNeeds,
+        (input, target): (&Input, &Target),
+    ) -> Result<Self> {
         if layers.groups.is_empty() {
             return Ok(self);
         }
         let made = target.files.iter().map(|file| area(file.sheet.size)).fold(0, u64::saturating_add);
         let read = input.texels() as u64;
         let least = layers.bytes(read, made);
-        let needed = frame_bytes(input, target).saturating_add(least);
+        let needed = needs.peak().saturating_add(least);
         let why = format!("; its further channels are {} of it, and {CHANNELS} takes fewer", human(least));
         self.allow(needed, "a frame", &why)?;
         let spare = self.bytes - needed;
@@ -106,46 +300,60 @@ impl MemoryBudget {
     }
 
     /// Returns the memory left for geometry that all frames share.
-    pub(crate) fn left_for_plan(self, input: &Input, target: &Target, threads: usize) -> u64 {
-        self.beside_program(threads).saturating_sub(frame_bytes(input, target)).saturating_sub(plane_bytes(target))
+    pub(crate) fn left_for_plan(self, needs: FrameNeeds, threads: usize) -> u64 {
+        self.beside_program(threads).saturating_sub(sum([needs.shared, needs.in_sequence().all]))
     }
 
     /// Returns the memory left beside the program itself. A single frame may use less than is counted here, so it is
     /// not limited by it.
     fn beside_program(self, threads: usize) -> u64 {
-        self.bytes.saturating_sub(PROGRAM).saturating_sub(THREAD.saturating_mul(threads as u64))
+        self.bytes.saturating_sub(program_bytes(threads))
     }
 
     /// Returns how many frames may be in flight around the one that is filtered, beside the geometry that they share.
     /// Each frame's files keep a thread busy, so more frames than threads are of no use.
-    pub(crate) fn queue_depth(self, input: &Input, target: &Target, plans: u64, threads: usize) -> QueueDepth {
-        let moving = input.present().filter(|(view, ..)| view.files.has_frames());
-        let (files, read) = moving
-            .fold((0, 0_u64), |(files, bytes), (_, header, _)| (files + 1, bytes.saturating_add(read_bytes(header))));
+    pub(crate) fn queue_depth(self, needs: FrameNeeds, files: usize, plans: u64, threads: usize) -> QueueDepth {
         let wanted = |files: usize| 1 + threads.div_ceil(files.max(1));
-        let geometry = geometry_bytes(input, target);
-        let planes = plane_bytes(target);
-        let frame = FrameMemory {
-            all: frame_bytes(input, target).saturating_sub(geometry).saturating_add(planes),
-            read,
-            written: output_bytes(target).saturating_add(planes),
-        };
-        let room = self.beside_program(threads).saturating_sub(plans).saturating_sub(geometry);
-        QueueDepth::fitting(room, frame, (wanted(files), wanted(target.files.len())))
+        let room = self.beside_program(threads).saturating_sub(plans).saturating_sub(needs.shared);
+        QueueDepth::fitting(room, needs.in_sequence(), (wanted(needs.samples.files), wanted(files)))
     }
 }
 
 /// Memory of the program without pictures, with its tables.
-const PROGRAM: u64 = 8 << 20;
+const PROGRAM: u64 = 18 << 20;
 
-/// Memory of a thread beside the pictures that it works on: bands of geometry, blocks of files, and the allocator's
-/// reserve.
-const THREAD: u64 = 3 << 20;
+/// Memory of a thread beside the pictures that it works on: blocks of files, and the allocator's reserve.
+const THREAD: u64 = 4 << 20;
 
-/// Bytes of a texel's solid angle.
-const SOLID_ANGLE: u64 = size_of::<f32>() as u64;
+/// Rows that a thread works on.
+const BAND_ROWS: u64 = 32;
 
-fn pixels(view: &View) -> u64 {
+/// Bytes of a texel's weight, and of what a pixel's weights need beside them.
+const WEIGHT: u64 = 8;
+
+/// Memory from which budgets hold for the program and all its threads, too. Smaller ones hold for pictures: nobody means that the program
+/// itself is too large.
+const SMALL: u64 = 64 << 20;
+
+/// Bytes of blocks and copies that a decoder holds, at most.
+const MOST_SCRATCH: u64 = 72 << 20;
+
+/// Returns the memory of the program without pictures.
+pub(crate) fn program_bytes(threads: usize) -> u64 {
+    PROGRAM.saturating_add(THREAD.saturating_mul(threads as u64))
+}
+
+/// Adds the program to the bytes of pictures, unless both are few.
+fn with_program(pictures: u64) -> u64 {
+    let all = pictures.saturating_add(program_bytes(rayon::current_num_threads()));
+    if all < SMALL { pictures } else { all }
+}
+
+fn sum<const N: usize>(bytes: [u64; N]) -> u64 {
+    bytes.into_iter().fold(0, u64::saturating_add)
+}
+
+fn pixels_of(view: &View) -> u64 {
     area((view.width(), view.height()))
 }
 
@@ -154,24 +362,8 @@ fn describe(target: &Target, link: &str) -> String {
     target.files.first().map_or_else(String::new, |file| size(&file.sheet))
 }
 
-/// Returns the bytes of the outputs and their encoded samples.
-fn output_bytes(target: &Target) -> u64 {
-    pixel_bytes(target.files.iter().flat_map(|file| file.levels()).map(|sheet| sheet.size))
-}
-
 /// Part of the memory, at most, into which further channels are read at once, beside the largest group of them.
 const READ_PART: u64 = 4;
-
-/// Returns the bytes of OpenEXR's planes, into which samples are sorted while their pictures are still held.
-fn plane_bytes(target: &Target) -> u64 {
-    if target.format == Format::Exr { output_bytes(target) / 2 } else { 0 }
-}
-
-/// Returns the bytes of pictures of these sizes, with their encoded samples.
-fn pixel_bytes(sizes: impl IntoIterator<Item = (usize, usize)>) -> u64 {
-    let pixels = sizes.into_iter().map(area).fold(0, u64::saturating_add);
-    pixels.saturating_mul(2 * size_of::<Rgba>() as u64)
-}
 
 /// Returns the bytes of tables that a view's projection holds.
 fn table_bytes(view: &View) -> u64 {
@@ -181,21 +373,29 @@ fn table_bytes(view: &View) -> u64 {
     }
 }
 
-/// Returns the bytes that all frames share, without plans: the solid angle of every texel, and tables.
-fn geometry_bytes(input: &Input, target: &Target) -> u64 {
-    let angles = (input.texels() as u64).saturating_mul(SOLID_ANGLE);
-    let views = input.views().map(|view| &view.nominal).chain(target.views.iter().map(|target| &target.view));
-    let tables = views.map(table_bytes).fold(0, u64::saturating_add);
-    angles.saturating_add(tables)
+/// Returns the bytes of blocks and copies that a file's decoder holds.
+fn scratch_bytes(header: &Header) -> u64 {
+    let samples = read_bytes(header);
+    match header.format {
+        // Blocks that are unpacked together.
+        Format::Exr => samples.min(MOST_SCRATCH),
+        // Coefficients of files that come in several scans.
+        Format::Jpeg => samples.saturating_mul(2).min(MOST_SCRATCH),
+        _ => samples.min(1 << 20),
+    }
 }
 
-/// Returns the bytes of a frame with everything that it shares: its files, their light, and the outputs.
-fn frame_bytes(input: &Input, target: &Target) -> u64 {
-    let light = input.present().map(|(_, header, _)| light_bytes(header)).fold(0, u64::saturating_add);
-    light.saturating_add(geometry_bytes(input, target)).saturating_add(output_bytes(target))
+/// Returns the bytes of the solid angles of all texels. Views that are alike share them, as the faces of a cube do.
+fn solid_angle_bytes(input: &Input, worlds: &[World]) -> u64 {
+    if !worlds.is_empty() {
+        return worlds.iter().map(|world| world.solid_angle_bytes() as u64).fold(0, u64::saturating_add);
+    }
+    let texels = input.views().map(|view: &InputView| pixels_of(&view.nominal));
+    let texels = if input.faces.is_some() { texels.max().unwrap_or(0) } else { texels.fold(0, u64::saturating_add) };
+    texels.saturating_mul(size_of::<f32>() as u64)
 }
 
 /// Returns the bytes that the light of a view takes while it is gathered: blocks of 4×4 texels and those above them.
 pub(crate) fn gathered_bytes(view: &View) -> u64 {
-    (view.width() as u64).saturating_mul(view.height() as u64).saturating_mul(11)
+    pixels_of(view).saturating_mul(11)
 }

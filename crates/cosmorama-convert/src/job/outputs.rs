@@ -1,13 +1,15 @@
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
-use cosmorama_io::pending::{NewFolders, Pending, place};
+use cosmorama_io::pending::{NewFolders, Pending, free_space, place};
+use cosmorama_io::{Compression, Format};
 
 use crate::diagnostic::{Code, Diagnostic, FRAMES, OVERWRITE, RESUME, Result, bail, failure, usage, usage_as};
 use crate::input::Input;
 use crate::job::{ConvertJob, Remade};
 use crate::settings::{Conversion, Existing, GeometrySettings};
 use crate::source::ViewFiles;
+use crate::source::memory_budget::human;
 use crate::target::{Target, TargetFile};
 
 /// A frame with its outputs that are still to be made.
@@ -111,6 +113,66 @@ impl Outputs {
     }
 }
 
+/// Space on a disk for the outputs of a job.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Space {
+    /// Bytes that a frame takes, about.
+    pub(crate) frame: u64,
+    /// Bytes that all frames take, about.
+    pub(crate) all: u64,
+    /// Bytes that are free, with those of files that are replaced; `None` where the system does not tell.
+    pub(crate) free: Option<u64>,
+}
+
+impl Space {
+    /// Returns the space that the outputs of a job take.
+    pub(crate) fn of(job: &ConvertJob, compression: Option<Compression>) -> Self {
+        let Target { files, format, .. } = &job.target;
+        let bytes = |file: &TargetFile| {
+            let levels = file.levels().map(|sheet| job.light.file_bytes(sheet.size)).fold(0, u64::saturating_add);
+            levels.saturating_add(job.layers.file_bytes(file.sheet.size))
+        };
+        let raw = files.iter().map(bytes).fold(0, u64::saturating_add);
+        let frame = compressed(raw, *format, compression);
+        let frames = &job.outputs.frames;
+        let replaced = |(_, path): &(usize, PathBuf)| std::fs::metadata(path).map_or(0, |file| file.len());
+        let replaced: u64 = frames.iter().flat_map(|frame| &frame.files).map(replaced).sum();
+        let folder = frames.first().and_then(|frame| frame.files.first()).and_then(|(_, path)| path.parent());
+        let free = folder.and_then(free_space).map(|free| free.saturating_add(replaced));
+        Self { frame, all: frame.saturating_mul(frames.len() as u64), free }
+    }
+
+    /// Returns the warning about a sequence that does not fit.
+    pub(crate) fn warning(self, outputs: &Outputs) -> Option<Diagnostic> {
+        let free = self.free.filter(|free| *free < self.all && outputs.frames.len() > 1)?;
+        let path = outputs.paths().next()?;
+        let fitting = free / self.frame.max(1);
+        let message = format!(
+            "{} frames need about {} of disk, but only {} are free where {} goes, room for about {fitting}; free some, or write elsewhere. \
+             If it runs full, the frame is named, and {RESUME} goes on",
+            outputs.frames.len(),
+            human(self.all),
+            human(free),
+            path.display()
+        );
+        Some(Diagnostic::warning(Code::DiskSpace, message))
+    }
+}
+
+/// Returns the bytes of a file whose samples have so many, about: those of rendered pictures with some noise. Flat ones take less.
+pub(crate) fn compressed(raw: u64, format: Format, compression: Option<Compression>) -> u64 {
+    let percent = match (format, compression) {
+        (Format::Png | Format::Tiff | Format::Exr, Some(Compression::None)) => 100,
+        (Format::Png | Format::Tiff, _) => 65,
+        (Format::Exr, _) => 80,
+        (Format::Jpeg, _) => 15,
+        // A byte for each colour and one for all.
+        (Format::Hdr, _) => 34,
+        _ => 100,
+    };
+    (raw / 100).saturating_mul(percent)
+}
+
 /// Creates a missing folder, with those above it.
 fn make_folder(made: &mut NewFolders, folder: &Path) -> Result<()> {
     made.make(folder).map_err(|error| {
@@ -212,4 +274,34 @@ fn refuse_existing_or<'a>(files: impl Iterator<Item = &'a Path>, instead: &str) 
         names.push("…".to_owned());
     }
     bail!(Exists: "{} outputs exist ({}); replace them with {OVERWRITE}{instead}", existing.len(), names.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_that_will_not_fit_are_told() {
+        let frame =
+            |number: u64| FrameOutputs { frame: Some(number), files: vec![(0, format!("dome_{number}.png").into())] };
+        let of = |count: u64| Outputs { frames: (1..=count).map(frame).collect(), ..Outputs::default() };
+        let told = |free: Option<u64>, count: u64| {
+            let warning = Space { frame: 1 << 30, all: count << 30, free }.warning(&of(count))?;
+            Some((warning.code, warning.to_string()))
+        };
+        let (code, message) = told(Some(25 << 28), 10).unwrap();
+        assert_eq!(code, Code::DiskSpace);
+        let words = ["10 frames need about 10.0 GiB", "only 6.3 GiB are free", "dome_1.png", "room for about 6"];
+        words.into_iter().for_each(|words| assert!(message.contains(words), "{message}"));
+        assert_eq!(told(Some(10 << 30), 10), None);
+        assert_eq!(told(None, 10), None, "nobody knows");
+        assert_eq!(told(Some(1), 1), None, "a picture that does not fit fails soon enough");
+    }
+
+    #[test]
+    fn kinds_of_files_differ_in_size() {
+        let of = |format, compression| compressed(1000, format, compression);
+        assert_eq!(of(Format::Png, Some(Compression::None)), 1000);
+        assert!(of(Format::Jpeg, None) < of(Format::Png, None) && of(Format::Png, None) < of(Format::Tga, None));
+    }
 }

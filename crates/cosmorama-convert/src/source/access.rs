@@ -11,6 +11,7 @@ use cosmorama_io::{
 };
 
 use super::decoded_picture::DecodedPicture;
+use super::stamp::Stamp;
 use crate::source::MemoryBudget;
 use crate::video::{DamagedFrames, FrameName, RawFiles, Videos};
 
@@ -36,6 +37,11 @@ pub trait Files: Debug + Send + Sync {
 
     /// Returns the videos whose frames are pictures here; `None` where videos are files like others.
     fn videos(&self) -> Option<&Videos> {
+        None
+    }
+
+    /// Returns a stamp that differs once a file has changed; `None` where files do not change, or are gone.
+    fn stamp(&self, _path: &Path) -> Option<Stamp> {
         None
     }
 }
@@ -91,6 +97,10 @@ impl Files for ChosenFiles {
     fn videos(&self) -> Option<&Videos> {
         Some(&self.videos)
     }
+
+    fn stamp(&self, path: &Path) -> Option<Stamp> {
+        self.files.stamp(path)
+    }
 }
 
 /// Files on disk.
@@ -104,6 +114,10 @@ impl Files for Disk {
 
     fn holds(&self, _: &Path) -> bool {
         false
+    }
+
+    fn stamp(&self, path: &Path) -> Option<Stamp> {
+        Stamp::of(path)
     }
 }
 
@@ -136,6 +150,10 @@ impl Files for InMemory {
 
     fn holds(&self, path: &Path) -> bool {
         self.files.contains_key(path)
+    }
+
+    fn stamp(&self, path: &Path) -> Option<Stamp> {
+        if self.holds(path) { None } else { Disk.stamp(path) }
     }
 }
 

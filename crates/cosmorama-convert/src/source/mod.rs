@@ -3,6 +3,7 @@
 pub(crate) mod access;
 pub(crate) mod decoded_picture;
 pub(crate) mod memory_budget;
+pub(crate) mod stamp;
 pub(crate) mod system_memory;
 pub(crate) mod unread;
 pub(crate) mod view_files;
@@ -10,6 +11,7 @@ pub(crate) mod wanted_frames;
 
 pub use access::{Disk, Files, InMemory, probe, read, with_videos};
 pub use memory_budget::MemoryBudget;
+pub use stamp::Stamp;
 pub use system_memory::peak_bytes;
 pub use view_files::ViewFiles;
 pub use wanted_frames::existing as existing_frames;

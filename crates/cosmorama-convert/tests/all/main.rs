@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop where it stands")]
 
 mod at_once;
+mod changed;
 mod diagnostics;
 mod hostile;
 mod in_memory;

@@ -9,6 +9,7 @@
 
 mod folder;
 mod new_folders;
+mod space;
 mod sweep;
 
 use std::collections::BTreeSet;
@@ -21,6 +22,7 @@ use tempfile::{Builder, TempDir, TempPath};
 
 pub use folder::PendingFolder;
 pub use new_folders::NewFolders;
+pub use space::free_space;
 
 use crate::IoError;
 

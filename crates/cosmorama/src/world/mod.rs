@@ -1,12 +1,12 @@
 //! Worlds: radiance by direction, held as a set of views.
 
 mod blend;
-mod bounding_cone;
 mod edge_decontamination;
 mod halved;
 mod light;
 pub(crate) mod mask;
 mod overlap;
+mod search;
 mod solid_angles;
 mod st_pixels;
 mod watertight;

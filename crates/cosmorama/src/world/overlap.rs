@@ -25,6 +25,7 @@ pub(crate) fn share(sources: &mut [Source]) {
     let meets = |a: usize, b: usize| sources[a].meets(&sources[b]);
     let sees = |view: usize, rim: usize| rims[rim].iter().any(|direction| sources[view].view.sees(*direction));
     let others: Vec<Vec<usize>> = (0..sources.len())
+        .into_par_iter()
         .map(|index| {
             let overlaps =
                 |&other: &usize| other != index && meets(index, other) && (sees(index, other) || sees(other, index));

@@ -22,6 +22,11 @@ impl SolidAngles {
         Self(Arc::new(angles))
     }
 
+    /// Returns the address of the list, which views that share it have in common.
+    pub(super) fn address(&self) -> usize {
+        Arc::as_ptr(&self.0).addr()
+    }
+
     /// Returns an empty list.
     pub(super) fn none() -> Self {
         Self(Arc::default())

@@ -1,9 +1,11 @@
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use thiserror::Error;
 
 use super::blend::{Blend, Border, Presence, parts};
-use super::bounding_cone::SeenCone;
+use super::search::bounding_cone::SeenCone;
+use super::search::view_index::ViewIndex;
 use super::{SolidAngles, ViewMask, overlap};
 use crate::camera::ROUNDING;
 use crate::camera::{PixelPoint, PixelRect, View};
@@ -185,6 +187,8 @@ impl Source {
 #[derive(Clone, Debug)]
 pub struct World {
     sources: Vec<Source>,
+    /// Views by direction, where they are many.
+    index: Option<Arc<ViewIndex>>,
 }
 
 impl World {
@@ -232,7 +236,11 @@ impl World {
             let texel_pitch = twin.map_or_else(|| texel_pitch(&view), |twin| twin.texel_pitch);
             let solid_angles = twin.map(|twin| twin.solid_angles.clone());
             let solid_angles = solid_angles.unwrap_or_else(|| SolidAngles::of(&view, whole.right));
-            let (border, cone, others) = (Border::of(&view), SeenCone::of(&view), Vec::new());
+            let cone = match twin {
+                Some(twin) => twin.cone.map(|cone| cone.turned(&twin.view, &view)),
+                None => SeenCone::of(&view),
+            };
+            let (border, others) = (Border::of(&view), Vec::new());
             sources.push(Source {
                 name,
                 view,
@@ -251,12 +259,21 @@ impl World {
         }
         hide(&mut sources);
         overlap::share(&mut sources);
-        Ok(Self { sources })
+        let cones: Vec<Option<SeenCone>> = sources.iter().map(|source| source.cone).collect();
+        let index = ViewIndex::of(&cones).map(Arc::new);
+        Ok(Self { sources, index })
     }
 
     /// Returns the views.
     pub fn sources(&self) -> &[Source] {
         &self.sources
+    }
+
+    /// Returns the bytes of all solid angles. Views that share theirs, as the faces of a cube do, count once.
+    pub fn solid_angle_bytes(&self) -> usize {
+        let lists = self.sources.iter().map(|source| (source.solid_angles.address(), source.solid_angles.len()));
+        let lists: HashMap<usize, usize> = lists.collect();
+        lists.values().sum::<usize>() * size_of::<f32>()
     }
 
     /// Returns the index of the view that shows a direction, and the place in its image. Where several do, the view
@@ -292,7 +309,8 @@ impl World {
 
     fn first_to_hold(&self, direction: Direction) -> Option<(usize, PixelPoint)> {
         // A direction on the very edge between two views may miss both by a rounding error.
-        self.sources.iter().enumerate().find_map(|(index, source)| {
+        let held = |index: usize| {
+            let source = &self.sources[index];
             let pixel = source.view.wrapped(source.view.pixel(direction)?);
             let (width, height) = (source.view.width() as f64, source.view.height() as f64);
             let inside = pixel.x >= -ROUNDING
@@ -302,7 +320,11 @@ impl World {
                 && source.view.stop_passes(pixel)
                 && source.mask.as_ref().is_none_or(|mask| mask.shows(pixel));
             inside.then_some((index, pixel))
-        })
+        };
+        match &self.index {
+            Some(index) => index.at(direction).find_map(held),
+            None => (0..self.sources.len()).find_map(held),
+        }
     }
 
     /// Returns the place of a texel, by its index in the buffer of light.

@@ -1,3 +1,4 @@
+mod cost;
 mod template;
 
 use std::collections::HashSet;
@@ -47,7 +48,7 @@ pub(super) fn run(mut args: ExplainArgs, console: &mut Console) -> Result<ExitCo
     let worlds = explanation.worlds()?;
     let _folders = output.as_deref().map(|folder| make_folder(folder, console)).transpose()?;
     let path = explanation.path(&worlds)?;
-    let (mut text, mut reports, mut drawn) = (String::new(), Vec::new(), Vec::new());
+    let (mut text, mut reports, mut drawn, mut found) = (String::new(), Vec::new(), Vec::new(), Vec::new());
     let mut needed = HashSet::new();
     for picture in explanation.pictures() {
         let report = explanation.report(&worlds, picture);
@@ -67,6 +68,12 @@ pub(super) fn run(mut args: ExplainArgs, console: &mut Console) -> Result<ExitCo
             text += &format!("wrote    {}\n", file.display());
         }
         reports.push(to_json(&report, &explanation, &files));
+        found.push(report);
+    }
+    let costs = explanation.costs(&worlds, &found);
+    text += &cost::text(&costs);
+    if let Some(first) = reports.first_mut() {
+        first["cost"] = cost::json(&costs);
     }
     if let Some(path) = &path {
         text += &path_text(path, has_input);

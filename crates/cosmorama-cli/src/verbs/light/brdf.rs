@@ -10,7 +10,7 @@ use cosmorama_spec::DepthName;
 use serde_json::json;
 
 use crate::args::BrdfArgs;
-use crate::console::{Console, say};
+use crate::console::Console;
 use crate::failure::usage;
 use crate::verbs::{check_depth, prepare_output};
 
@@ -38,8 +38,8 @@ fn write(args: &BrdfArgs, (depth, channels): (Depth, Channels), console: &Consol
     write_flat(path, &encoded, &options)?;
     let cut = overflowed(&table, depth);
     if cut > 0 {
-        say(format_args!(
-            "warning: {}: {cut} cells are more than 1, the most that --depth {} holds; .exr and .ktx2 hold them",
+        console.warning(format_args!(
+            "{}: {cut} cells are more than 1, the most that --depth {} holds; .exr and .ktx2 hold them",
             path.display(),
             DepthName(depth)
         ));

@@ -10,7 +10,7 @@ use cosmorama_io::pending::Pending;
 use serde_json::{Value, json};
 
 use crate::args::HarmonicsArgs;
-use crate::console::{Console, say};
+use crate::console::Console;
 use crate::failure::usage;
 use crate::pipe::KeptStreams;
 use crate::verbs::prepare_output;
@@ -43,7 +43,7 @@ pub(super) fn run(mut args: HarmonicsArgs, console: &mut Console) -> Result<Exit
     if args.world.json {
         console.print(&report(&args, &found, kind)?)?;
     } else {
-        tell(&path, &found, (args.order, kind));
+        tell((&path, &found), (args.order, kind), console);
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -149,10 +149,10 @@ fn report(args: &HarmonicsArgs, found: &WorldHarmonics, kind: HarmonicKind) -> R
 }
 
 /// Prints for people what the coefficients miss.
-fn tell(path: &Path, found: &WorldHarmonics, (order, kind): (usize, HarmonicKind)) {
+fn tell((path, found): (&Path, &WorldHarmonics), (order, kind): (usize, HarmonicKind), console: &Console) {
     let (radiance, irradiance) = (found.accuracy.radiance, found.accuracy.irradiance);
     let percent = |share: f64| format!("{:.1} %", 100.0 * share);
-    say(format_args!(
+    console.report(format_args!(
         "{}: order {order} misses {} of the radiance and {} of the irradiance (rms)",
         path.display(),
         percent(radiance.rms_error),
@@ -160,7 +160,7 @@ fn tell(path: &Path, found: &WorldHarmonics, (order, kind): (usize, HarmonicKind
     ));
     let written = if kind == HarmonicKind::Radiance { radiance } else { irradiance };
     if written.negative > 0.0 {
-        say(format_args!(
+        console.report(format_args!(
             "the {} is negative over {} of the sphere, down to {:.3}; --window hanning weakens that",
             name(kind),
             percent(written.negative),

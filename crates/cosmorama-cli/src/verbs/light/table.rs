@@ -15,7 +15,7 @@ use cosmorama_spec::{DepthName, colour_table_csv, colour_table_of_csv, colour_ta
 use serde_json::json;
 
 use crate::args::TableArgs;
-use crate::console::{Console, say};
+use crate::console::Console;
 use crate::failure::usage;
 use crate::pipe::KeptStreams;
 use crate::verbs::{check_depth, prepare_output};
@@ -165,8 +165,8 @@ fn write_picture(args: &TableArgs, format: Format, image: &Image<Rgba>, console:
     let most = depth.most();
     let overflowed = image.pixels().iter().flat_map(|pixel| &pixel.0[..3]).filter(|light| **light > most).count();
     if overflowed > 0 {
-        say(format_args!(
-            "warning: {}: {overflowed} samples are brighter than --depth {} holds; OpenEXR in floats holds them",
+        console.warning(format_args!(
+            "{}: {overflowed} samples are brighter than --depth {} holds; OpenEXR in floats holds them",
             args.output.display(),
             DepthName(depth)
         ));

@@ -83,7 +83,7 @@ pub(in crate::verbs) fn run(FiguresArgs { paper }: &FiguresArgs, console: &Conso
         refuse_existing(outputs(&paper.dir, &faces).iter().map(PathBuf::as_path))?;
     }
     let _folders = make_folder(&faces.folder(), console)?;
-    let mut progress = Progress::of(NOUN, paper.progress, faces.parts.len() + 2 + DRAWINGS.len());
+    let mut progress = Progress::of(NOUN, console.progress(paper.progress), faces.parts.len() + 2 + DRAWINGS.len());
     for part in &faces.parts {
         pool.install(|| faces.render(part, console))?;
         progress.frame_done(None);

@@ -47,7 +47,7 @@ pub(in crate::verbs) fn run(PlatesArgs { size, paper }: &PlatesArgs, console: &C
     }
     let _folders = [make_folder(&paper.dir, console)?, make_folder(&paper.dir.join("world"), console)?];
     let pool = threads(paper.limits.threads)?;
-    let mut progress = Progress::of(NOUN, paper.progress, 1 + Plates::ALL.len() + DRAWINGS.len());
+    let mut progress = Progress::of(NOUN, console.progress(paper.progress), 1 + Plates::ALL.len() + DRAWINGS.len());
     let plates = pool.install(|| world(*size, &paper.dir, console))?;
     progress.frame_done(None);
     for plate in Plates::ALL {

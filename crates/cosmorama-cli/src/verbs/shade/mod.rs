@@ -1,6 +1,7 @@
 //! Things under a world.
 
 mod camera;
+mod memory;
 mod model;
 mod output;
 mod things;
@@ -16,7 +17,7 @@ use std::time::Instant;
 use anyhow::Result;
 use cosmorama::filter::FilterSettings;
 use cosmorama::raster::{Image, Rgba};
-use cosmorama_convert::{check_apart, threads};
+use cosmorama_convert::{MemoryBudget, check_apart, threads};
 use cosmorama_scene::{Background, LightMaps, SceneError, Sky, Surroundings, backdrop, picture, picture_over};
 use cpu_time::ProcessTime;
 use serde_json::json;
@@ -36,7 +37,7 @@ pub(super) fn run(args: ShadeArgs, console: &mut Console) -> Result<ExitCode> {
     let (start, mut clock) = (Instant::now(), Clock::start());
     let output = Output::check(&args)?;
     let frames = frames(&args)?;
-    let mut things = Things::read(&args)?;
+    let mut things = Things::read(&args, console)?;
     let shots = shots(&args, &things)?;
     let worlds = worlds(&args, &mut things, console)?;
     let files: HashSet<PathBuf> = files(&worlds).chain(things.files.iter().cloned()).collect();
@@ -53,6 +54,9 @@ pub(super) fn run(args: ShadeArgs, console: &mut Console) -> Result<ExitCode> {
     let lit = clock.lap();
     let filter =
         FilterSettings { kind: args.reflect.0, kernel: args.kernel.kernel, anti_ringing: args.kernel.anti_ringing };
+    let budget = MemoryBudget::new(args.limits.memory);
+    let needed =
+        budget.check_things(memory::needed(&lights, &shots, frames.len(), filter), pool.current_num_threads())?;
     let surroundings = |number: usize| {
         let made = Surroundings::new(skies[number], &maps[number], filter).map_err(wrong)?;
         let is_hidden = args.occlusion == OcclusionName::Ambient;
@@ -91,6 +95,7 @@ pub(super) fn run(args: ShadeArgs, console: &mut Console) -> Result<ExitCode> {
             "wall_seconds": start.elapsed().as_secs_f64(),
             "cpu_seconds": cpu,
             "peak_memory_bytes": cosmorama_convert::peak_bytes(),
+            "estimated_memory_bytes": needed,
         });
         console.print(&(serde_json::to_string_pretty(&report)? + "\n"))?;
     }

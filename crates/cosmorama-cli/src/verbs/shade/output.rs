@@ -5,7 +5,7 @@ use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Primaries, Rgba, T
 use cosmorama_io::{Format, Metadata, WriteOptions, write};
 
 use crate::args::{BackgroundName, ShadeArgs};
-use crate::console::{Console, say};
+use crate::console::Console;
 use crate::failure::usage;
 use crate::verbs::check_depth;
 
@@ -66,13 +66,13 @@ impl Output {
         if !channels.has_alpha() {
             image.lay_over(Rgba::BLACK);
         }
-        self.tell_clipped(path, &image);
+        self.tell_clipped((path, &image), console);
         let transfer = if self.depth.is_float() { Transfer::Linear } else { Transfer::Srgb };
         let encoded = EncodedImage::encode(&image, channels, self.depth, &transfer);
         let held = self.format.holds_primaries(&primaries).then_some(primaries);
         if held.is_none() && !primaries.is_same(&Primaries::REC709) {
-            say(format_args!(
-                "warning: {}: {} cannot name the light's primaries; write OpenEXR",
+            console.warning(format_args!(
+                "{}: {} cannot name the light's primaries; write OpenEXR",
                 path.display(),
                 self.format
             ));
@@ -83,7 +83,7 @@ impl Output {
     }
 
     /// Warns of samples that integers cut to white.
-    fn tell_clipped(&self, path: &Path, image: &Image<Rgba>) {
+    fn tell_clipped(&self, (path, image): (&Path, &Image<Rgba>), console: &Console) {
         /// Part of white that rounding forgives.
         const WHITE: f32 = 1.002;
         if self.depth.is_float() {
@@ -95,8 +95,8 @@ impl Output {
             .flat_map(|pixel| pixel.0[..3].iter().map(|channel| *channel / pixel.alpha().max(OPAQUE)));
         let count = samples.filter(|sample| *sample > WHITE).count();
         if count > 0 {
-            say(format_args!(
-                "warning: {}: {count} samples are brighter than white, and are cut to it; write OpenEXR, or darken with --gain",
+            console.warning(format_args!(
+                "{}: {count} samples are brighter than white, and are cut to it; write OpenEXR, or darken with --gain",
                 path.display()
             ));
         }

@@ -16,6 +16,7 @@ use cosmorama_scene::{
 
 use super::model::model;
 use crate::args::{ObjectName, RefractName, ShadeArgs};
+use crate::console::Console;
 use crate::failure::usage;
 
 /// Things under a world, as they were asked for.
@@ -34,9 +35,9 @@ pub(super) struct Things {
 
 impl Things {
     /// Returns the things that were asked for, with their pictures.
-    pub(super) fn read(args: &ShadeArgs) -> Result<Self> {
+    pub(super) fn read(args: &ShadeArgs, console: &Console) -> Result<Self> {
         let budget = MemoryBudget::new(args.limits.memory);
-        let mut reader = Reader { budget, files: HashSet::new(), cameras: Vec::new() };
+        let mut reader = Reader { console, budget, files: HashSet::new(), cameras: Vec::new() };
         let file = args.scene.as_deref().map(|path| scene_file(path, &mut reader)).transpose()?;
         let scene = match &file {
             Some(file) => file.scene(&mut reader)?,
@@ -49,14 +50,15 @@ impl Things {
 }
 
 /// Reader of pictures and texts.
-struct Reader {
+struct Reader<'a> {
+    console: &'a Console,
     /// Memory that is left for more.
     budget: MemoryBudget,
     files: HashSet<PathBuf>,
     cameras: Vec<ModelCamera>,
 }
 
-impl PictureReader for Reader {
+impl PictureReader for Reader<'_> {
     fn picture(&mut self, source: PictureSource, kind: PictureKind) -> Result<Image<Rgba>, String> {
         let limits = Limits::memory(self.budget.bytes);
         let file = match source {
@@ -79,7 +81,7 @@ impl PictureReader for Reader {
     }
 }
 
-impl SceneReader for Reader {
+impl SceneReader for Reader<'_> {
     fn model(&mut self, path: &Path, settings: ModelSettings) -> Result<Object, String> {
         let settings = ModelSettings { most: self.most(), ..settings };
         self.read_model(path, &settings).map_err(|error| error.to_string())
@@ -89,7 +91,7 @@ impl SceneReader for Reader {
 /// Memory of a pixel of a picture on things, with its part of the pyramid.
 const PIXEL_BYTES: usize = size_of::<Rgba>() * 4 / 3;
 
-impl Reader {
+impl Reader<'_> {
     /// Returns the most triangles of another model.
     fn most(&self) -> usize {
         self.budget.count_of(Model::TRIANGLE_BYTES)
@@ -102,7 +104,8 @@ impl Reader {
 
     fn read_model(&mut self, path: &Path, settings: &ModelSettings) -> Result<Object> {
         self.files.insert(real_path(path));
-        let model = model(path, settings, self)?;
+        let console = self.console;
+        let model = model(path, settings, self, console)?;
         self.spend(model.kept_bytes());
         self.cameras.extend(model.cameras);
         Ok(model.object)

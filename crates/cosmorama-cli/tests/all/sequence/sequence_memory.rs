@@ -26,3 +26,68 @@ fn sequences_of_deep_pictures_take_no_more_memory_than_they_may() {
         }
     }
 }
+
+/// The estimate that is told, and the most memory that was held, in MiB.
+fn estimate_and_peak(bench: &Bench, args: &[&str]) -> [f64; 2] {
+    let limits = ["-y", "--threads", "2", "--json"];
+    let report: Value = serde_json::from_str(&bench.succeed(&[args, &limits].concat())).unwrap();
+    ["estimated_memory_bytes", "peak_memory_bytes"].map(|key| report[key].as_f64().unwrap() / f64::from(1 << 20))
+}
+
+#[test]
+fn estimates_are_no_less_than_what_is_held_and_little_more() {
+    let bench = Bench::new();
+    bench.faces("face_", 1024);
+    for frame in 1..=5 {
+        bench.save(&format!("sky_{frame}.png"), &picture(frame, 2048, 1024));
+    }
+    let sky = ["--from", "equirect"];
+    bench.succeed(
+        &[&["convert", "sky_1.png", "sky.exr", "--to", "equirect", "--size", "2048", "--depth", "float"][..], &sky]
+            .concat(),
+    );
+    let dome = |to: &'static str, size: &'static str| ["--to", to, "--size", size];
+    let cases: Vec<(&str, Vec<&str>)> = vec![
+        ("upright dome", [&["convert", "face_{face}.png", "o.png"][..], &dome("fulldome", "4096")].concat()),
+        ("tilted dome", [&["convert", "face_{face}.png", "o.png"][..], &dome("fulldome:tilt=20", "4096")].concat()),
+        ("floats", [&["convert", "sky.exr", "o_{face}.exr"][..], &dome("cube", "1024"), &sky].concat()),
+        (
+            "16 bits",
+            [&["convert", "sky_1.png", "o.png", "--depth", "16"][..], &dome("fulldome", "2048"), &sky].concat(),
+        ),
+        ("one sheet", [&["convert", "sky_1.png", "o.png"][..], &dome("cube:layout=3x2", "1024"), &sky].concat()),
+        ("sequence", [&["convert", "sky_#.png", "o_#.png"][..], &dome("fulldome", "2048"), &sky].concat()),
+        (
+            "halves",
+            [&["convert", "sky_#.png", "o_#.exr", "--depth", "half"][..], &dome("fulldome", "1024"), &sky].concat(),
+        ),
+        (
+            "pyramid",
+            [&["convert", "sky_1.png", "o.png", "--filter", "ewa-pyramid"][..], &dome("fulldome", "512"), &sky]
+                .concat(),
+        ),
+        (
+            "light",
+            [
+                &["light", "specular", "sky.exr", "o_{level}_{face}.exr", "--levels", "3"][..],
+                &dome("cube", "128"),
+                &sky,
+            ]
+            .concat(),
+        ),
+        ("things", ["shade", "sky.exr", "ball.png", "--object", "sphere", "--size", "1024"].to_vec()),
+    ];
+    let figures: Vec<String> = cases
+        .iter()
+        .map(|(name, args)| {
+            let [told, held] = estimate_and_peak(&bench, args);
+            let is_right = held <= told && told <= 1.5 * held;
+            format!(
+                "{}{name}: {told:.0} MiB told, {held:.0} held, {:.2} times",
+                if is_right { "" } else { "WRONG " },
+                told / held
+            )
+        })
+        .collect();
+    assert!(figures.iter().all(|figure| !figure.starts_with("WRONG")), "{}", figures.join("\n"));
+}

@@ -93,10 +93,26 @@ fn words(command: &str) -> Vec<String> {
     words
 }
 
-/// A line without what differs from run to run: times, and the most memory that was held.
+/// Figures that differ from run to run, or from one number of cores to another.
+const UNSTEADY: [&str; 10] = [
+    "wall_seconds",
+    "peak_memory_bytes",
+    "estimated_memory_bytes",
+    "picture_memory_bytes",
+    "sequence_memory_bytes",
+    "decode",
+    "plan",
+    "filter",
+    "encode",
+    "seconds_per_frame",
+];
+
+/// A line without what differs from run to run: times, the most memory that was held, and that which so many cores would need.
 fn steady(line: &str) -> String {
-    let keys = ["wall_seconds", "peak_memory_bytes", "decode", "plan", "filter", "encode", "seconds_per_frame"];
-    if let Some((key, _)) = line.split_once(": ").filter(|(key, _)| keys.contains(&key.trim().trim_matches('"'))) {
+    if let Some((kind, _)) = line.strip_prefix("cost     ").and_then(|line| line.split_once(": ")) {
+        return format!("cost     {kind}: MEMORY");
+    }
+    if let Some((key, _)) = line.split_once(": ").filter(|(key, _)| UNSTEADY.contains(&key.trim().trim_matches('"'))) {
         return format!("{key}: TIME");
     }
     let words: Vec<&str> = line.split(' ').collect();

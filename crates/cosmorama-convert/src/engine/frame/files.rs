@@ -1,15 +1,18 @@
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use cosmorama::raster::{Channels, Depth, EncodedImage, FramePool, Samples};
-use cosmorama_io::{Carried, ImageFile, Limits, Window};
+use cosmorama_io::{Carried, Header, ImageFile, Limits, Window};
 use rayon::prelude::*;
 
 use crate::colour::FileColours;
 use crate::diagnostic::{FRAMES, InPlace, Result, bail, failure};
+use crate::input::InputView;
 use crate::job::{ConvertJob, FrameOutputs};
 use crate::packing::Place;
-use crate::source::{probe, read_in};
+use crate::source::{Stamp, probe, read_in};
 
 /// Image of a view in one frame, as in its file.
 pub(crate) struct ViewImage {
@@ -21,6 +24,8 @@ pub(crate) struct ViewImage {
     pub(crate) image: EncodedImage,
     /// Conversion of its code values to light.
     pub(crate) colours: FileColours,
+    /// Stamp of the file, from before it was read.
+    pub(crate) stamp: Option<Stamp>,
     /// Metadata for the outputs, which get those of the first view.
     pub(crate) carried: Option<Arc<Carried>>,
 }
@@ -37,36 +42,56 @@ pub(crate) enum Which {
 }
 
 /// A file of a frame, and the views whose pixels it holds.
-pub(crate) struct FrameFile {
+pub(crate) struct FrameFile<'a> {
     /// Path of the file.
     pub(crate) path: PathBuf,
-    /// Indices of the views among those that are present.
-    pub(crate) views: Vec<usize>,
+    /// Views in it; at least one.
+    views: Vec<FileView<'a>>,
 }
 
-impl FrameFile {
+/// A view in a file.
+#[derive(Clone, Copy)]
+struct FileView<'a> {
+    /// Index among the views that are present.
+    index: usize,
+    input: &'a InputView,
+    header: &'a Header,
+}
+
+impl<'a> FrameFile<'a> {
     /// Lists the files of a frame.
-    pub(crate) fn all(job: &ConvertJob, frame: Option<u64>, which: Which) -> Vec<Self> {
+    pub(crate) fn all(job: &'a ConvertJob, frame: Option<u64>, which: Which) -> Vec<Self> {
         let mut files: Vec<Self> = Vec::new();
-        for (view, (input, ..)) in job.input.present().enumerate() {
+        // By name, since a world may have thousands of views.
+        let mut places: HashMap<PathBuf, usize> = HashMap::new();
+        for (index, (input, header, _)) in job.input.present().enumerate() {
+            let view = FileView { index, input, header };
             let is_moving = input.files.has_frames();
             if which != Which::All && is_moving != (which == Which::Moving) {
                 continue;
             }
             let path = input.files.path(frame);
-            match files.iter_mut().find(|file| file.path == path) {
-                Some(file) => file.views.push(view),
-                None => files.push(Self { path, views: vec![view] }),
+            match places.entry(path) {
+                Entry::Occupied(place) => files[*place.get()].views.push(view),
+                Entry::Vacant(place) => {
+                    files.push(Self { path: place.key().clone(), views: vec![view] });
+                    place.insert(files.len() - 1);
+                }
             }
         }
         files
+    }
+
+    /// Returns the indices of its views among those that are present.
+    pub(crate) fn indices(&self) -> Vec<usize> {
+        self.views.iter().map(|view| view.index).collect()
     }
 
     /// Checks by headers that the pictures of every frame are as large as the first frame's, before any is converted.
     ///
     /// # Errors
     /// Of the first frame that is not, or whose header cannot be read.
-    pub(crate) fn check_frames(job: &ConvertJob) -> Result<()> {
+    pub(crate) fn check_frames(job: &'a ConvertJob) -> Result<()> {
         let check = |frame: &FrameOutputs| -> Result<()> {
             let later = Some(frame).filter(|frame| Some(&frame.frame) != job.input.frames.first());
             let files = later.map_or_else(Vec::new, |frame| Self::all(job, frame.frame, Which::Moving));
@@ -85,8 +110,7 @@ impl FrameFile {
 
     /// Checks that a picture of this file is as large as that of the first frame.
     fn check_size(&self, job: &ConvertJob, found: (usize, usize), window: Option<Window>) -> Result<()> {
-        let first = self.views.first().and_then(|view| job.input.present().nth(*view));
-        let Some((first, header, _)) = first else { return Ok(()) };
+        let Some(FileView { input: first, header, .. }) = self.views.first() else { return Ok(()) };
         let expected = first.part.map_or((header.width, header.height), |part| part.of);
         if found == expected && window == header.window {
             return Ok(());
@@ -107,9 +131,9 @@ impl FrameFile {
     /// Reads the file into memory of a pool. If it is one of several, one thread does all the work.
     pub(crate) fn read(&self, job: &ConvertJob, pool: &FramePool) -> Result<Vec<ViewImage>> {
         let Self { path, views } = self;
-        let present: Vec<_> = job.input.present().collect();
-        let Some((first, header, _)) = views.first().map(|view| present[*view]) else { return Ok(Vec::new()) };
+        let Some(&FileView { input: first, header, .. }) = views.first() else { return Ok(Vec::new()) };
         let expected = first.part.map_or((header.width, header.height), |part| part.of);
+        let stamp = job.files.stamp(path);
         let file = match job.decoded.take(path) {
             Some(file) => file,
             None => read_in(&*job.files, path, &Limits::memory(job.memory.bytes), pool)?,
@@ -120,18 +144,17 @@ impl FrameFile {
         let image = if job.layers.leaves_picture_out() { blank(path, found)? } else { file.image };
         let file = ImageFile { image, ..file };
         let colours = job.light.colours(file.image.channels(), file.image.depth(), &file.metadata);
-        let carried = job.light.carried(&file.metadata).filter(|_| views.contains(&0));
+        let carried = job.light.carried(&file.metadata).filter(|_| views.iter().any(|view| view.index == 0));
         let view_image = |view: usize, image| {
             let (colours, carried) = (colours.clone(), carried.clone().filter(|_| view == 0));
-            ViewImage { view, path: path.clone(), image, colours, carried }
+            ViewImage { view, path: path.clone(), image, colours, stamp, carried }
         };
-        if let (&[view], None) = (&views[..], first.part) {
-            return Ok(vec![view_image(view, file.image)]);
+        if let (&[FileView { index, .. }], None) = (&views[..], first.part) {
+            return Ok(vec![view_image(index, file.image)]);
         }
-        let part = |&view: &usize| {
-            let (input, header, _) = present[view];
+        let part = |&FileView { index, input, header }: &FileView<'_>| {
             let part = input.part.unwrap_or(Place::whole(expected));
-            view_image(view, file.image.cropped_in(part.corner, (header.width, header.height), pool))
+            view_image(index, file.image.cropped_in(part.corner, (header.width, header.height), pool))
         };
         let parts = views.iter().map(part).collect();
         pool.give(file.image.into_samples());

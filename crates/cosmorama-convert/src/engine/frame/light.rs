@@ -9,9 +9,10 @@ use cosmorama_io::Carried;
 use rayon::prelude::*;
 
 use crate::colour::{FileColours, LightConversion};
-use crate::diagnostic::{Result, bail};
+use crate::diagnostic::{RESUME, Result, bail};
 use crate::engine::{FrameFile, Stage, Stages, ViewImage, Which};
 use crate::job::ConvertJob;
+use crate::source::{Files, Stamp};
 
 /// Light of a frame. Its memory, and views that do not change, are reused for the next frame.
 pub(crate) struct FrameLight {
@@ -30,6 +31,8 @@ pub(crate) struct FrameLight {
     fixed_decoders: Vec<(Transfer, Option<FixedDecoder>)>,
     /// Metadata of the first view's file.
     carried: Option<Arc<Carried>>,
+    /// Files of the views, as they were before they were read.
+    read: Vec<Option<(PathBuf, Option<Stamp>)>>,
 }
 
 /// Light of the texels of each world.
@@ -54,8 +57,8 @@ impl FrameLight {
         let counts = vec![Counts::default(); rims.len()];
         let decoder = Decoder::default();
         let flattened = BTreeSet::new();
-        let (fixed_decoders, carried) = (Vec::new(), None);
-        Self { texels, counts, rims, flattened, is_fixed, has_still: false, decoder, fixed_decoders, carried }
+        let (fixed_decoders, carried, read) = (Vec::new(), None, vec![None; rims.len()]);
+        Self { texels, counts, rims, flattened, is_fixed, has_still: false, decoder, fixed_decoders, carried, read }
     }
 
     /// Returns all texels.
@@ -76,6 +79,20 @@ impl FrameLight {
     /// Returns the metadata that the frame's outputs take over.
     pub(crate) fn carried(&self) -> Option<Arc<Carried>> {
         self.carried.clone()
+    }
+
+    /// Checks that no file has changed since it was read, so that what is said of the inputs is true of the pixels.
+    ///
+    /// # Errors
+    /// When one has, or is gone.
+    pub(crate) fn check_unchanged(&self, files: &dyn Files) -> Result<()> {
+        let stamped = self.read.iter().flatten().filter_map(|(path, stamp)| Some((path, (*stamp)?)));
+        let changed = stamped.filter(|(path, stamp)| files.stamp(path) != Some(*stamp)).map(|(path, _)| path).next();
+        let Some(path) = changed.map(|path| path.display()) else { return Ok(()) };
+        bail!(
+            Changed: "{path}: it was changed or removed while its picture was converted; leave inputs alone meanwhile, and make the frames \
+             that are left with {RESUME}"
+        )
     }
 
     /// Decodes a frame: all its views, or those that change from frame to frame.
@@ -162,6 +179,7 @@ impl FrameLight {
                 bail!(NotANumber: "{path}: the {name} view holds no light; render it again: every pixel is NaN");
             }
             self.counts[image.view] = counts;
+            self.read[image.view] = Some((image.path.clone(), image.stamp));
         }
         Ok(())
     }

@@ -2,6 +2,7 @@
 
 mod behind;
 mod blur;
+mod decisions;
 pub(crate) mod files;
 pub(crate) mod light;
 pub(crate) mod pictures;

@@ -12,7 +12,7 @@ use crate::detect::FacePixels;
 use crate::detect::pixels::light_of;
 use crate::diagnostic::{BACKGROUND, Code, ConvertError, Diagnostic, MISSING, Result, bail};
 use crate::engine::frame::behind::Behind;
-use crate::engine::geometry::{arithmetic, codec};
+use crate::engine::geometry::arithmetic;
 use crate::engine::unfiltered::formula;
 use crate::engine::{
     BalancedLight, FrameLight, LayerPass, Levels, LightMaps, LightReport, Posed, Shares, Texels, Writer, WriterOptions,
@@ -20,7 +20,7 @@ use crate::engine::{
 };
 use crate::input::InputView;
 use crate::job::coverage::Coverage;
-use crate::job::{ConvertJob, FrameOutputs, QueueDepth};
+use crate::job::{ConvertJob, FrameNeeds, FrameOutputs, QueueDepth};
 use crate::settings::{LightScale, LightSettings};
 use crate::target::{Sheet, Target};
 
@@ -32,7 +32,7 @@ pub(crate) struct Engine<'a> {
     /// World behind the input.
     pub(super) behind: Option<Box<Behind<'a>>>,
     /// Pose of the last frame: of all frames where nothing moves.
-    posed: Mutex<Option<Arc<Posed>>>,
+    pub(super) posed: Mutex<Option<Arc<Posed>>>,
     /// Diagnostics about the geometry that are not told yet.
     told: Mutex<Vec<Diagnostic>>,
     writer: Writer,
@@ -74,7 +74,7 @@ impl<'a> Engine<'a> {
             (Some(Arc::new(posed)), told, bytes)
         };
         let threads = rayon::current_num_threads();
-        let mut queue_depth = job.memory.queue_depth(&job.input, &job.target, geometry, threads);
+        let mut queue_depth = job.memory.queue_depth(job.frame_needs(), job.target.files.len(), geometry, threads);
         if !job.layers.groups.is_empty() {
             // Further channels take the memory of many pictures, which was kept for one frame.
             queue_depth.written = 1;
@@ -82,7 +82,7 @@ impl<'a> Engine<'a> {
         let pool = Arc::new(FramePool::keeping(pool_bytes(job, queue_depth)));
         let files = WriteOptions { pool: Arc::clone(&pool), ..options.files };
         let writer = Writer::new(&job.light, &job.layers.picture, WriterOptions { files, ..options });
-        let (codec, posed, told) = (codec(job), Mutex::new(posed), Mutex::new(told));
+        let (codec, posed, told) = (job.fixed_codec(), Mutex::new(posed), Mutex::new(told));
         let edges = job.worlds.iter().map(|_| OnceLock::new()).collect();
         Ok(Self { job, codec, behind, posed, told, writer, queue_depth, pool, edges, lit: Mutex::default() })
     }
@@ -519,7 +519,7 @@ fn bytes_while_moving(job: &ConvertJob) -> u64 {
     }
     let arithmetic = arithmetic(job);
     let plans = job.target.views.iter().map(|target| job.resampler(target).plan_bytes_estimate(arithmetic) as u64);
-    plans.sum::<u64>().min(job.memory.left_for_plan(&job.input, &job.target, rayon::current_num_threads()))
+    plans.sum::<u64>().min(job.memory.left_for_plan(job.frame_needs(), rayon::current_num_threads()))
 }
 
 /// Counts pixels, with the verb for one and that for several.
@@ -530,6 +530,6 @@ fn counted(pixels: usize, one: &str, several: &str) -> String {
 /// Returns how many bytes a pool may hold: as much as the frames in flight take, except their light, which has a buffer
 /// of its own. It is 0 for a single picture, after which no other would use the memory.
 fn pool_bytes(job: &ConvertJob, queue_depth: QueueDepth) -> u64 {
-    let light = job.input.texels().saturating_mul(size_of::<Rgba>()) as u64;
-    if job.outputs.frames.len() > 1 { queue_depth.bytes.saturating_sub(light) } else { 0 }
+    let FrameNeeds { light, prepared, .. } = job.frame_needs();
+    if job.outputs.frames.len() > 1 { queue_depth.bytes.saturating_sub(light).saturating_sub(prepared) } else { 0 }
 }

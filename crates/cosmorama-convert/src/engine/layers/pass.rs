@@ -66,9 +66,9 @@ impl LayerPass<'_> {
         let names: Vec<&str> =
             batch.iter().flat_map(|group| &group.channels).map(|channel| channel.name.as_str()).collect();
         let limits = Limits::memory(job.memory.bytes);
-        let read = |FrameFile { path, views }: FrameFile| -> Result<FilePlanes> {
-            let planes = read_further(&*job.files, &path, &limits, &names)?;
-            Ok(FilePlanes { path, views, planes })
+        let read = |file: FrameFile<'_>| -> Result<FilePlanes> {
+            let planes = read_further(&*job.files, &file.path, &limits, &names)?;
+            Ok(FilePlanes { views: file.indices(), path: file.path, planes })
         };
         let files = FrameFile::all(job, frame, Which::All).into_par_iter();
         // In the order of files, so that the same one of several errors is reported every time.

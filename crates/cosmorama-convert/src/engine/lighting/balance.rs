@@ -1,13 +1,11 @@
 //! Energy balance: the total light of a world is kept from one form to another, suns included.
 
 use cosmorama::camera::View;
-use cosmorama::filter::{FilterKind, Kernel};
 use cosmorama::lighting::LightBalance;
 use cosmorama::raster::{Image, Rgba};
 use cosmorama::render::Plan;
 
 use crate::job::ConvertJob;
-use crate::job::coverage::Coverage;
 use crate::target::TargetView;
 
 /// Energy balance of a job's pictures, for those that can and should keep light.
@@ -26,16 +24,10 @@ struct Group {
     bytes: u64,
 }
 
-/// Returns whether a job's filter should keep light and can be balanced: `--kernel light` without anti-ringing, whose
-/// weights depend on the light.
-pub(crate) fn is_asked_for(job: &ConvertJob) -> bool {
-    job.filter.kind == FilterKind::Ewa && job.filter.kernel == Kernel::LIGHT && !job.filter.anti_ringing
-}
-
 /// Returns the views of each size that together show all that a world shows. Pixels filled for lack of a view, and
 /// alpha, rule out a balance.
 pub(crate) fn groups(job: &ConvertJob, targets: &[TargetView]) -> Vec<Vec<usize>> {
-    if !is_asked_for(job) || job.light.input_alpha || !matches!(job.coverage, Coverage::Complete) {
+    if !job.is_balance_asked_for() || job.light.input_alpha || !job.is_complete() {
         return Vec::new();
     }
     let key = |index: usize| {

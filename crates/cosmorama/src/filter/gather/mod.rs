@@ -226,8 +226,12 @@ impl<'a> Gather<'a> {
     /// Adds the texels of one view. Returns whether the kernel lies wholly inside it.
     fn gather_from(&mut self, source: &Source, footprint: &Footprint, region: RimRegion, floor: f64) -> bool {
         let radius = self.reach(footprint, source.texel_pitch_at(footprint.direction), floor);
+        // First of all, since of many views most are far away.
+        if !source.reaches(footprint.direction, radius) {
+            return false;
+        }
         let margin = source.view.margin(footprint.direction);
-        if margin + radius <= 0.0 || !source.reaches(footprint.direction, radius) {
+        if margin + radius <= 0.0 {
             return false;
         }
         // At a rim, the errors of a bent mapping do not cancel between two sides.

@@ -116,6 +116,11 @@ impl FramePool {
         Self { allowed: bytes, ..Self::default() }
     }
 
+    /// Returns the bytes that unused and used memory may take together.
+    pub fn allowed(&self) -> u64 {
+        self.allowed
+    }
+
     /// Takes samples with arbitrary values.
     pub fn take<S: Sample>(&self, count: usize) -> Vec<S> {
         self.used(self.reused(count).unwrap_or_else(|| S::zeros(count)))

@@ -20,7 +20,7 @@ use serde_json::{Value, json};
 
 use crate::args::DeployArgs;
 use crate::args::light::lobe::LobeName;
-use crate::console::{Console, say};
+use crate::console::Console;
 use crate::pipe::KeptStreams;
 use crate::report;
 use crate::verbs::light::{brdf, harmonics, maps};
@@ -73,7 +73,11 @@ pub(super) fn run(mut args: DeployArgs, console: &mut Console) -> Result<ExitCod
         let json = json!({ "preset": args.preset.name(), "folder": args.folder, "outputs": outputs });
         console.print(&(serde_json::to_string_pretty(&json)? + "\n"))?;
     } else if args.progress.is_for_people() {
-        say(format_args!("{} files in {}; README.txt says what is what", files.len(), args.folder.display()));
+        console.report(format_args!(
+            "{} files in {}; README.txt says what is what",
+            files.len(),
+            args.folder.display()
+        ));
     }
     Ok(ExitCode::SUCCESS)
 }

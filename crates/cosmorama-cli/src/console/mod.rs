@@ -1,6 +1,8 @@
 //! Output of messages and reports. Files that stand for streams (standard input and output, pipes) get readable names
 //! in it.
 
+mod log;
+
 use std::borrow::Cow;
 use std::collections::HashSet;
 use std::fmt::Display;
@@ -9,16 +11,20 @@ use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
 use anyhow::{Context, Result};
-use cosmorama_convert::{Diagnostic, Message, Outcome, Setting, Severity};
+use cosmorama_convert::{Decision, Diagnostic, Message, Outcome, Setting, Severity};
 use cosmorama_io::pending::Unfinished;
+
+pub(crate) use log::{Log, VARIABLE};
+
+use crate::args::ProgressStyle;
 
 /// Streams of a run.
 #[derive(Debug, Default)]
 pub(crate) struct Console {
     /// Each file that stands for a stream, with its readable name.
     names: Vec<(String, String)>,
-    /// Whether notes are printed, too.
-    pub(crate) verbose: bool,
+    /// Log that takes all messages.
+    log: Log,
     /// Files that are being written; an interrupt removes them.
     pub(crate) unfinished: Unfinished,
     /// Diagnostics that were printed: none is twice.
@@ -26,6 +32,16 @@ pub(crate) struct Console {
 }
 
 impl Console {
+    /// Creates the console whose messages go to a log.
+    pub(crate) fn new(log: Log) -> Self {
+        Self { log, ..Self::default() }
+    }
+
+    /// Returns the style of progress that was asked for; by itself it is JSON where the log is.
+    pub(crate) fn progress(&self, style: ProgressStyle) -> ProgressStyle {
+        if style == ProgressStyle::Auto && self.log.is_json() { ProgressStyle::Json } else { style }
+    }
+
     /// Sets the readable name under which messages show a file from now on.
     pub(crate) fn call(&mut self, file: &Path, name: &str) {
         self.names.push((file.to_string_lossy().into_owned(), name.to_owned()));
@@ -36,26 +52,49 @@ impl Console {
         self.names.iter().fold(text.to_owned(), |text, (file, name)| text.replace(file, name))
     }
 
-    /// Prints a diagnostic that does not stop the work. Notes are printed only on request.
+    /// Tells of a diagnostic that does not stop the work. Notes are told only on request.
     pub(crate) fn warn(&self, diagnostic: &Diagnostic) {
-        if diagnostic.severity != Severity::Note || self.verbose {
-            self.tell(diagnostic);
-        }
+        self.tell(diagnostic, false);
     }
 
-    /// Prints what a check found. If it failed, notes are printed, too: one may tell why.
+    /// Tells what a check found. If it failed, notes are told, too: one may say why.
     pub(crate) fn tell_all<T>(&self, outcome: &Outcome<T>) {
         let has_failed = outcome.result.is_err();
-        let said = outcome.diagnostics.iter();
-        said.for_each(|diagnostic| if has_failed { self.tell(diagnostic) } else { self.warn(diagnostic) });
+        outcome.diagnostics.iter().for_each(|diagnostic| self.tell(diagnostic, has_failed));
     }
 
-    fn tell(&self, diagnostic: &Diagnostic) {
-        let kind = if diagnostic.severity == Severity::Note { "note" } else { "warning" };
-        let line = format!("{kind}: {}", self.told(&in_options(&diagnostic.message)));
-        if self.said.lock().unwrap_or_else(PoisonError::into_inner).insert(line.clone()) {
-            say(line);
+    fn tell(&self, diagnostic: &Diagnostic, is_for_all: bool) {
+        let text = self.told(&in_options(&diagnostic.message));
+        let is_note = diagnostic.severity == Severity::Note;
+        let told = format!("{is_note} {is_for_all} {text}");
+        if !self.said.lock().unwrap_or_else(PoisonError::into_inner).insert(told) {
+            return;
         }
+        if is_note {
+            self.log.note(diagnostic.code, &text, is_for_all);
+        } else {
+            self.log.warning(Some(diagnostic.code), &text);
+        }
+    }
+
+    /// Tells of something that may be wrong.
+    pub(crate) fn warning(&self, text: impl Display) {
+        self.log.warning(None, &self.told(&text.to_string()));
+    }
+
+    /// Tells why the work ends.
+    pub(crate) fn error(&self, text: &str) {
+        self.log.error(&self.told(text));
+    }
+
+    /// Tells what was done.
+    pub(crate) fn report(&self, text: impl Display) {
+        self.log.report(&self.told(&text.to_string()));
+    }
+
+    /// Tells what was decided, to those who ask.
+    pub(crate) fn decision(&self, decision: &Decision) {
+        self.log.decision(decision.topic, decision.is_detail, &self.told(&in_options(&decision.message)));
     }
 
     /// Prints a requested text on standard output.
@@ -72,7 +111,12 @@ impl Console {
 /// Prints a line on standard error. If nobody reads it any more, since a pipe is closed or a disk is full, the work
 /// goes on.
 pub(crate) fn say(line: impl Display) {
-    let _ = writeln!(stderr(), "{}", escaped(&line.to_string()));
+    say_as_it_is(&format!("{line}\n"));
+}
+
+/// Prints whole lines at once, so that those of several threads do not mix.
+fn say_as_it_is(lines: &str) {
+    let _ = stderr().write_all(escaped(lines).as_bytes());
 }
 
 /// Returns a text whose control characters, as names of files may hold them, are escaped as in JSON: a terminal obeys them. Ends of

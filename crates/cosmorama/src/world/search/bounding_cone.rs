@@ -52,15 +52,23 @@ impl SeenCone {
         (half < Angle::HALF_TURN).then_some(Self { middle, half })
     }
 
+    /// Returns the cone of another view whose texels are those of a view with this cone, but for their orientation.
+    pub(crate) fn turned(self, from: &View, to: &View) -> Self {
+        Self { middle: to.orientation.to_world(from.orientation.to_view(self.middle)), ..self }
+    }
+
     /// Returns whether two cones have a direction in common, or nearly so: they hold directions up to rounding.
-    pub(super) fn meets(&self, other: &Self) -> bool {
+    pub(crate) fn meets(&self, other: &Self) -> bool {
         const ROUNDING: f64 = 1e-6;
         self.reaches(other.middle, other.half.radians() + ROUNDING)
     }
 
     /// Returns whether the cone comes within `radius` radians of a direction.
     pub(crate) fn reaches(&self, direction: Direction, radius: f64) -> bool {
-        self.middle.angle_to(direction).radians() <= self.half.radians() + radius
+        let most = self.half.radians() + radius;
+        // A chord is shorter than its arc, so that most of many views are ruled out without the angle.
+        let chord = self.middle.vector().distance_squared(direction.vector());
+        chord <= most * most && self.middle.angle_to(direction).radians() <= most
     }
 }
 

@@ -1,0 +1,60 @@
+use cosmorama_convert::{CostedFiles, SequenceCost};
+use serde_json::{Value, json};
+
+/// Frames of a show, for which hours and disk are told.
+const SHOW: u64 = 50_000;
+
+/// Tells the costs of a sequence, a line for each kind of files.
+pub(super) fn text(costs: &[SequenceCost]) -> String {
+    let mut text = "\n".to_owned();
+    for cost in costs {
+        text += &format!(
+            "cost     {}: {} for a picture, {} for a sequence; about {:.0} frames a core-hour; {} of disk for 1,000 frames\n",
+            name(cost.files),
+            mebibytes(cost.picture_bytes),
+            mebibytes(cost.job_bytes),
+            cost.frames_a_core_hour(),
+            gigabytes(1000 * cost.frame_bytes)
+        );
+    }
+    if let Some(cost) = costs.first() {
+        text += &format!(
+            "         {SHOW} frames, {}: about {:.0} core-hours, {} of disk\n",
+            name(cost.files),
+            SHOW as f64 * cost.cpu_seconds / 3600.0,
+            gigabytes(SHOW * cost.frame_bytes)
+        );
+    }
+    text
+}
+
+/// Returns the costs for programs.
+pub(super) fn json(costs: &[SequenceCost]) -> Value {
+    let of = |cost: &SequenceCost| {
+        json!({
+            "files": name(cost.files),
+            "picture_memory_bytes": cost.picture_bytes,
+            "sequence_memory_bytes": cost.job_bytes,
+            "cpu_seconds_a_frame": cost.cpu_seconds,
+            "frames_a_core_hour": cost.frames_a_core_hour(),
+            "disk_bytes_a_frame": cost.frame_bytes,
+        })
+    };
+    costs.iter().map(of).collect()
+}
+
+fn name(files: CostedFiles) -> &'static str {
+    match files {
+        CostedFiles::EightBits => "PNG of 8 bits",
+        CostedFiles::Halves => "OpenEXR halves",
+    }
+}
+
+fn mebibytes(bytes: u64) -> String {
+    format!("{} MiB", bytes.div_ceil(1 << 20))
+}
+
+/// Formats an amount of disk in units of powers of ten, as disks are sold.
+fn gigabytes(bytes: u64) -> String {
+    format!("{:.1} GB", bytes as f64 / 1e9)
+}

@@ -1,0 +1,58 @@
+//! Decisions of an engine in words: geometry that is kept or not, and frames in flight.
+
+use super::pictures::{Engine, lock};
+use crate::diagnostic::{Decision, Topic};
+use crate::job::{QueueDepth, program_bytes};
+use crate::source::memory_budget::human;
+
+impl Engine<'_> {
+    /// Returns the decisions about geometry and queues, with their reasons.
+    pub(crate) fn decisions(&self) -> Vec<Decision> {
+        let frames = self.job.outputs.frames.len();
+        let mut told = vec![Decision::new(Topic::Geometry, self.of_geometry())];
+        if frames > 1 {
+            let QueueDepth { read, written, bytes } = self.queue_depth();
+            let message = format!(
+                "{read} read and {written} made or written at once, as many as memory and threads permit; they take up to {}",
+                human(bytes)
+            );
+            told.push(Decision::new(Topic::Frames, message));
+            told.push(Decision::detail(
+                Topic::Memory,
+                format!("up to {} of finished frames are kept for those that follow", human(self.pool.allowed())),
+            ));
+        }
+        told
+    }
+
+    /// Returns the memory that the run needs in all, about and at most.
+    pub(crate) fn estimated_bytes(&self) -> u64 {
+        let (job, threads) = (self.job, rayon::current_num_threads());
+        if job.outputs.frames.len() <= 1 {
+            return job.estimated_bytes(threads);
+        }
+        let geometry = lock(&self.posed).as_ref().map_or(0, |posed| posed.geometry.bytes());
+        let own = [job.frame_needs().shared, self.queue_depth().bytes, geometry];
+        let behind = job.layers().skip(1).map(|job| job.frame_needs().peak());
+        own.into_iter().chain(behind).fold(program_bytes(threads), u64::saturating_add)
+    }
+
+    fn of_geometry(&self) -> String {
+        let job = self.job;
+        if job.lighting.is_some() {
+            return "light is gathered for each map, without geometry to keep".to_owned();
+        }
+        let posed = lock(&self.posed);
+        match posed.as_ref().map(|posed| (posed.geometry.kept(), posed.geometry.bytes())) {
+            None => "computed for each pose of the moving camera, and kept while it stands still".to_owned(),
+            Some((0, _)) if job.outputs.frames.len() > 1 => {
+                "computed anew for each frame: the filter has no plan, or memory is short".to_owned()
+            }
+            Some((0, _)) => "computed with the picture, and not kept, because it is the only one".to_owned(),
+            Some((plans, bytes)) => {
+                let plans = if plans == 1 { "1 plan".to_owned() } else { format!("{plans} plans") };
+                format!("kept in {plans} of {} in all, for all frames", human(bytes))
+            }
+        }
+    }
+}
