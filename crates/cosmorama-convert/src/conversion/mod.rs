@@ -2,7 +2,6 @@
 
 mod advance;
 mod check;
-mod cost;
 mod decisions;
 mod explanation;
 mod filters;
@@ -15,8 +14,7 @@ mod world_light;
 
 pub use check::Checked;
 pub use check::threads;
-pub use cost::{CostedFiles, SequenceCost};
-pub use explanation::{Explanation, ExplanationSettings, PathExplanation};
+pub use explanation::{CostedFiles, Explanation, ExplanationSettings, PathExplanation, SequenceCost};
 pub use filters::{FilterReport, FilterTrial, FilterTrials};
 pub use observer::{Observer, Quiet, Stop, Work};
 pub use report::Report;

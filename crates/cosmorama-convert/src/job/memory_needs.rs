@@ -181,7 +181,7 @@ impl Samples {
             let bytes = read_bytes(header).saturating_mul(if is_copied { 2 } else { 1 });
             found.all = found.all.saturating_add(bytes);
             found.scratch = found.scratch.saturating_add(scratch_bytes(header));
-            if view.files.sequence().is_some() {
+            if view.files.has_frames() {
                 found.moving = found.moving.saturating_add(bytes);
                 found.files += 1;
             }

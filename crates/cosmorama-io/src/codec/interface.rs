@@ -151,10 +151,6 @@ impl Elsewhere {
 }
 
 impl Codec for Elsewhere {
-    fn recognises(&self, _: &[u8]) -> bool {
-        false
-    }
-
     fn probe(&self, path: &Path, _: Source<'_>) -> Result<Header, IoError> {
         Err(Self::refusal(path))
     }

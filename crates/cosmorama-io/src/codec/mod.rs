@@ -114,8 +114,8 @@ impl Format {
             Self::Ktx2 => start.starts_with(b"\xabKTX 20\xbb"),
             Self::Ktx => start.starts_with(b"\xabKTX 11\xbb"),
             Self::Dds => start.starts_with(b"DDS "),
-            // TGA files begin with no mark.
-            Self::Tga => false,
+            // TGA files begin with no mark, and frames of videos are no files.
+            Self::Tga | Self::Video | Self::Pfm => false,
         }
     }
 }

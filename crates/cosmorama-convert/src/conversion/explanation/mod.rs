@@ -1,3 +1,9 @@
+//! What a conversion would do and cost, without doing it.
+
+mod cost;
+
+pub use cost::{CostedFiles, SequenceCost};
+
 use std::collections::HashSet;
 use std::path::PathBuf;
 use std::sync::Arc;
