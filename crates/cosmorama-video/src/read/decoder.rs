@@ -31,7 +31,8 @@ pub(super) struct Decoder {
     pool: Arc<FramePool>,
     /// Whether a frame that is wanted has been told.
     has_begun: bool,
-    has_sought: bool,
+    /// Whether frames before it are decoded and dropped.
+    is_partial: bool,
 }
 
 /// A frame, and what was said of it.
@@ -40,7 +41,7 @@ pub(super) struct Decoded {
     pub(super) image: EncodedImage,
     pub(super) time: Option<i64>,
     pub(super) is_corrupt: bool,
-    /// Last message of an error before the frame.
+    /// First message of an error before the frame.
     pub(super) complaint: Option<String>,
 }
 
@@ -92,7 +93,7 @@ impl Decoder {
             size: info.size(),
             pool: Arc::clone(&options.pool),
             has_begun: false,
-            has_sought: start.seek.is_some(),
+            is_partial: start.from.is_some(),
         })
     }
 
@@ -104,8 +105,10 @@ impl Decoder {
             match self.log.next() {
                 Some(Event::Frame(time)) => break time,
                 Some(Event::Corrupt) => is_corrupt = true,
-                // After a seek, frames that are not wanted lack others before them.
-                Some(Event::Complaint(text)) if self.has_begun || !self.has_sought => complaint = Some(text),
+                Some(Event::Complaint(text)) if self.has_begun || !self.is_partial => {
+                    complaint.get_or_insert(text);
+                }
+                // Frames before those that are wanted may be damaged, or lack others before them.
                 Some(Event::Complaint(_)) => {}
                 None => break None,
             }
