@@ -224,14 +224,7 @@ impl VideoWriter {
 
 /// Returns whether a message means that the file is not whole, even where ffmpeg then ends with success.
 fn is_fatal(text: &str) -> bool {
-    let words = [
-        "No space left",
-        "Input/output error",
-        "Error writing",
-        "av_interleaved_write_frame",
-        "Error muxing",
-        "File ended prematurely",
-    ];
+    let words = ["No space left", "Input/output error", "Error writing", "av_interleaved_write_frame", "Error muxing"];
     words.iter().any(|words| text.contains(words))
 }
 
