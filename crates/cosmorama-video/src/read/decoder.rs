@@ -7,7 +7,7 @@ use std::sync::Arc;
 use cosmorama::raster::{Depth, EncodedImage, FramePool, Samples};
 
 use super::ReadOptions;
-use super::filters::{Raw, chain};
+use super::filters::{Pixels, Raw, chain};
 use crate::ffmpeg::{Child, Event, Log, input_limits, url};
 use crate::{Ffmpeg, VideoError, VideoInfo};
 
@@ -67,7 +67,7 @@ impl Decoder {
         options: &ReadOptions,
         start: Start,
     ) -> Result<Self, VideoError> {
-        let raw = Raw::of(info);
+        let raw = Raw::of(info)?;
         let mut command = ffmpeg.ffmpeg_command();
         command.args(Log::OPTIONS).args(input_limits());
         // What is damaged is an error, and its frame is missed; otherwise it is painted over.
@@ -79,8 +79,8 @@ impl Decoder {
             command.args(["-noaccurate_seek", "-ss", &format!("{seconds:.6}")]);
         }
         command.arg("-i").arg(url(&info.path)).args(["-map", &format!("0:{}", info.stream)]);
-        command.args(["-vf", &chain(info, start.from)?]).args(ffmpeg.every_frame_once());
-        command.args(["-f", "rawvideo", "-c:v", "rawvideo", "-pix_fmt", raw.name(), "pipe:1"]);
+        command.args(["-vf", &chain(info, raw, start.from)?]).args(ffmpeg.every_frame_once());
+        command.args(["-f", "rawvideo", "-c:v", "rawvideo", "-pix_fmt", &raw.name(), "pipe:1"]);
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = Child::start(command, "ffmpeg")?;
         let log = Log::of(child.stderr());
@@ -119,22 +119,36 @@ impl Decoder {
 
     fn image(&mut self, info: &VideoInfo) -> Result<Option<EncodedImage>, VideoError> {
         let (width, height) = self.size;
-        let count = width * height * self.raw.channels.count();
-        let samples = match self.raw.depth {
-            Depth::Eight => {
-                let mut samples = self.pool.take::<u8>(count);
-                self.fill(info, &mut samples)?.then_some(Samples::U8(samples))
-            }
-            _ => {
-                let mut samples = self.pool.take::<u16>(count);
-                let is_filled = self.fill(info, bytemuck::cast_slice_mut(&mut samples))?;
-                samples.iter_mut().for_each(|sample| *sample = u16::from_le(*sample));
-                is_filled.then_some(Samples::U16(samples))
-            }
+        let count = width * height * self.raw.samples();
+        let samples = if self.raw.depth == Depth::Eight {
+            let mut samples = self.pool.take::<u8>(count);
+            self.fill(info, &mut samples)?.then_some(Samples::U8(samples))
+        } else {
+            let mut samples = self.pool.take::<u16>(count);
+            let is_filled = self.fill(info, bytemuck::cast_slice_mut(&mut samples))?;
+            samples.iter_mut().for_each(|sample| *sample = u16::from_le(*sample));
+            is_filled.then(|| self.deep(samples))
         };
         let Some(samples) = samples else { return Ok(None) };
         let image = EncodedImage::new(width, height, self.raw.channels, self.raw.depth, samples);
         image.map(Some).map_err(|error| failed(io::Error::other(error)))
+    }
+
+    /// Returns RGB of more than 8 bits.
+    fn deep(&self, planes: Vec<u16>) -> Samples {
+        let (width, height) = self.size;
+        let count = self.raw.channels.count();
+        let mut pixels = match self.raw.pixels {
+            Pixels::Rgb => return Samples::U16(planes),
+            Pixels::Yuv(_) | Pixels::Grey(_) => self.pool.take::<u16>(width * height * count),
+        };
+        match self.raw.pixels {
+            Pixels::Yuv(coding) => coding.pixels(&planes, count, &mut pixels),
+            Pixels::Grey(coding) => coding.grey_pixels(&planes, &mut pixels),
+            Pixels::Rgb => {}
+        }
+        self.pool.give(Samples::U16(planes));
+        Samples::U16(pixels)
     }
 
     /// Fills a frame; `false` at the end, an error within a frame.

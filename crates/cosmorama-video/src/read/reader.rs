@@ -1,5 +1,5 @@
 use super::decoder::{Decoded, Decoder, Ended, Next, Start};
-use super::filters::Raw;
+use super::filters::{Pixels, Raw};
 use super::{Damaged, Fault, FrameCondition, ReadOptions, VideoFrame};
 use crate::{Announced, AnnouncedBy, CutShort, Ffmpeg, Timeline, VideoError, VideoInfo};
 use cosmorama::raster::EncodedImage;
@@ -348,8 +348,11 @@ fn start(info: &VideoInfo, timeline: &Timeline, first: u64) -> Start {
 }
 
 fn check_memory(info: &VideoInfo, options: &ReadOptions) -> Result<(), VideoError> {
-    let (raw, (width, height)) = (Raw::of(info), info.size());
-    let needed = width as u128 * height as u128 * (raw.channels.count() * raw.depth.bytes()) as u128;
+    let (raw, (width, height)) = (Raw::of(info)?, info.size());
+    // Planes are held beside the picture that is made of them.
+    let planes = if raw.pixels == Pixels::Rgb { 0 } else { raw.samples() };
+    let bytes = (raw.channels.count() + planes) * raw.depth.bytes();
+    let needed = width as u128 * height as u128 * bytes as u128;
     let limit = options.memory.min(isize::MAX as u64);
     if needed > u128::from(limit) {
         let size = (width as u64, height as u64);
