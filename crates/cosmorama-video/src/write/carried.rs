@@ -1,6 +1,8 @@
 //! Sound, subtitles, chapters and metadata of another video: copied where the container can hold them, else coded anew or left out,
 //! which is said.
 
+use std::ffi::OsString;
+
 use super::{Carried, Container, FrameTimes, WriteSettings, timecode};
 use crate::ffmpeg::{input_limits, url};
 use crate::probe::is_boxes;
@@ -10,12 +12,12 @@ use crate::{OtherStream, StreamKind};
 #[derive(Clone, Debug, Default)]
 pub(super) struct Plan {
     /// Arguments of the second input.
-    pub(super) input: Vec<std::ffi::OsString>,
+    pub(super) input: Vec<OsString>,
     /// Arguments of the output.
     pub(super) output: Vec<String>,
     /// Number of streams of sound in the output.
     pub(super) sounds: usize,
-    /// Streams of sound of the source, counted among those, that go to MP4 or MOV from such a file.
+    /// Whether boxes about the sound go along: between MP4 and MOV.
     pub(super) fields: bool,
     /// Statements on what is not copied.
     pub(super) notes: Vec<String>,
@@ -39,17 +41,17 @@ impl Plan {
         // Seconds are counted from the first frame, by ffmpeg from the file's beginning.
         let first = info.start as f64 * info.time_base.to_f64() - info.file_start;
         let start = first + seconds.as_ref().map_or(0.0, |seconds| seconds.start);
-        plan.input.extend(input_limits().map(Into::into));
+        plan.input.extend(input_limits().map(OsString::from));
         if start > NOTHING {
-            plan.input.extend(["-ss".into(), format!("{start:.6}").into()]);
+            plan.input.extend(["-ss".to_owned(), format!("{start:.6}")].map(OsString::from));
         }
         if let Some(seconds) = seconds {
             let length = (seconds.end - seconds.start).max(0.0);
-            plan.input.extend(["-t".into(), format!("{length:.6}").into()]);
+            plan.input.extend(["-t".to_owned(), format!("{length:.6}")].map(OsString::from));
             // Chapters that begin later are left out by the output's length alone. No frame is at its very end.
             plan.output.extend(["-t".to_owned(), format!("{:.6}", length + 0.5 / settings.rate().to_f64())]);
         }
-        plan.input.extend(["-i".into(), url(&info.path)]);
+        plan.input.extend([OsString::from("-i"), url(&info.path)]);
         for stream in &info.others {
             plan.add(stream, container);
         }
