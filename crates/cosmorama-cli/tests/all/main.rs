@@ -69,20 +69,19 @@ mod output {
 mod sequence {
     mod backdrop;
     mod choices;
+    #[cfg(feature = "video")]
+    mod films;
     mod motion;
     mod resume;
     #[cfg(target_os = "linux")]
     mod sequence_memory;
     mod sequences;
     mod sky;
-    mod verify;
-}
-
-#[cfg(feature = "video")]
-mod video {
-    mod conversions;
-    mod films;
+    #[cfg(feature = "video")]
     mod streams;
+    mod verify;
+    #[cfg(feature = "video")]
+    mod videos;
 }
 
 mod usage {

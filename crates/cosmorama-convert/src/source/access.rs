@@ -12,7 +12,7 @@ use cosmorama_io::{
 
 use super::decoded_picture::DecodedPicture;
 use crate::source::MemoryBudget;
-use crate::video::{DamagedFrames, FrameName, RawFiles, Videos};
+use crate::source::video::{DamagedFrames, FrameName, RawFiles, Videos};
 
 /// Source of the bytes of inputs: disk, memory, an archive. Inputs are pictures, masks, st maps, calibrations, world
 /// files and Hugin projects. Patterns of frames and faces are always searched on disk.

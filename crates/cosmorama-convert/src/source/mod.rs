@@ -5,6 +5,7 @@ pub(crate) mod decoded_picture;
 pub(crate) mod memory_budget;
 pub(crate) mod system_memory;
 pub(crate) mod unread;
+pub(crate) mod video;
 pub(crate) mod view_files;
 pub(crate) mod wanted_frames;
 
