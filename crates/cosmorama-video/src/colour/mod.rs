@@ -1,5 +1,6 @@
 //! Colour tags of video, by the numbers of ITU-T H.273.
 
+mod frame;
 mod hdr;
 mod numbers;
 mod yuv;

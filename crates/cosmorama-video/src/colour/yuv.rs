@@ -59,6 +59,11 @@ impl Coding {
         [self.black + y * self.luma, self.neutral + u * self.chroma, self.neutral + v * self.chroma]
     }
 
+    /// Returns the greatest code.
+    pub(crate) fn most(&self) -> f32 {
+        self.most
+    }
+
     /// Returns the nearest code.
     pub(crate) fn code(&self, value: f32) -> u16 {
         value.round().clamp(0.0, self.most) as u16

@@ -111,8 +111,8 @@ impl<'a> Stream<'a> {
 }
 
 fn turn(value: &Value) -> Option<Turn> {
-    let list = value["side_data_list"].as_array().into_iter().flatten();
-    let found = list.into_iter().find(|data| data["side_data_type"] == "Display Matrix");
+    let mut list = value["side_data_list"].as_array().into_iter().flatten();
+    let found = list.find(|data| data["side_data_type"] == "Display Matrix");
     match (found, value["tags"]["rotate"].as_str()) {
         (Some(data), _) => match text(data, "displaymatrix") {
             Some(matrix) => Turn::of_matrix(matrix),
@@ -143,7 +143,7 @@ fn announced(value: &Value) -> Option<Announced> {
     Some(Announced { frames, by: AnnouncedBy::Count })
 }
 
-pub(super) fn colour(value: &Value) -> ColourTags {
+fn colour(value: &Value) -> ColourTags {
     let number = |axis: Axis, name: &str| text(value, name).and_then(|name| axis.number(name));
     ColourTags {
         primaries: number(Axis::Primaries, "color_primaries"),

@@ -8,6 +8,9 @@ use super::CutShort;
 /// Boxes that are passed over at most.
 const MOST_BOXES: usize = 1 << 16;
 
+/// Names of boxes with which MP4 and MOV files begin.
+const FIRST: [&[u8; 4]; 9] = [b"ftyp", b"styp", b"moov", b"mdat", b"free", b"skip", b"wide", b"pnot", b"uuid"];
+
 /// Returns whether ffprobe's names of a container are those of MP4 and MOV.
 pub(crate) fn is_boxes(container: &str) -> bool {
     container.split(',').any(|name| name == "mov" || name == "mp4")
@@ -22,11 +25,7 @@ pub(super) fn cut(file: &mut File) -> Option<CutShort> {
     let expected = match &start {
         [0x1a, 0x45, 0xdf, 0xa3, ..] => end_of_segment(file)?,
         [b'R', b'I', b'F', b'F', size @ .., _, _, _, _] => 8 + u64::from(u32::from_le_bytes(*size)),
-        [_, _, _, _, name @ .., _, _, _, _]
-            if name.iter().all(|letter| letter.is_ascii_graphic() || *letter == b' ') =>
-        {
-            end_of_boxes(file, found)?
-        }
+        [_, _, _, _, name @ .., _, _, _, _] if FIRST.contains(&name) => end_of_boxes(file, found)?,
         _ => return None,
     };
     (expected > found).then_some(CutShort { expected, found })
@@ -112,5 +111,6 @@ mod tests {
         assert_eq!(found(b"RIFF\x10\0\0\0AVI LIST"), Some(CutShort { expected: 24, found: 16 }));
         assert_eq!(found(b"\x1a\x45\xdf\xa3\0\0\0\0\0\0\0\0\0\0\0"), None);
         assert_eq!(found(b"short"), None);
+        assert_eq!(found(b"ffconcat version 1.0"), None);
     }
 }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use cosmorama::raster::{Depth, EncodedImage, FramePool, Samples};
 
 use super::ReadOptions;
-use super::filters::{Raw, chain};
+use super::filters::{Pixels, Raw, chain};
 use crate::ffmpeg::{Child, Event, Log, input_limits, url};
 use crate::{Ffmpeg, VideoError, VideoInfo};
 
@@ -31,7 +31,8 @@ pub(super) struct Decoder {
     pool: Arc<FramePool>,
     /// Whether a frame that is wanted has been told.
     has_begun: bool,
-    has_sought: bool,
+    /// Whether frames before it are decoded and dropped.
+    is_partial: bool,
 }
 
 /// A frame, and what was said of it.
@@ -40,7 +41,7 @@ pub(super) struct Decoded {
     pub(super) image: EncodedImage,
     pub(super) time: Option<i64>,
     pub(super) is_corrupt: bool,
-    /// Last message of an error before the frame.
+    /// First message of an error before the frame.
     pub(super) complaint: Option<String>,
 }
 
@@ -66,7 +67,7 @@ impl Decoder {
         options: &ReadOptions,
         start: Start,
     ) -> Result<Self, VideoError> {
-        let raw = Raw::of(info);
+        let raw = Raw::of(info)?;
         let mut command = ffmpeg.ffmpeg_command();
         command.args(Log::OPTIONS).args(input_limits());
         // What is damaged is an error, and its frame is missed; otherwise it is painted over.
@@ -78,8 +79,8 @@ impl Decoder {
             command.args(["-noaccurate_seek", "-ss", &format!("{seconds:.6}")]);
         }
         command.arg("-i").arg(url(&info.path)).args(["-map", &format!("0:{}", info.stream)]);
-        command.args(["-vf", &chain(info, start.from)?]).args(ffmpeg.every_frame_once());
-        command.args(["-f", "rawvideo", "-c:v", "rawvideo", "-pix_fmt", raw.name(), "pipe:1"]);
+        command.args(["-vf", &chain(info, raw, start.from)?]).args(ffmpeg.every_frame_once());
+        command.args(["-f", "rawvideo", "-c:v", "rawvideo", "-pix_fmt", &raw.name(), "pipe:1"]);
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = Child::start(command, "ffmpeg")?;
         let log = Log::of(child.stderr());
@@ -92,7 +93,7 @@ impl Decoder {
             size: info.size(),
             pool: Arc::clone(&options.pool),
             has_begun: false,
-            has_sought: start.seek.is_some(),
+            is_partial: start.from.is_some(),
         })
     }
 
@@ -104,8 +105,10 @@ impl Decoder {
             match self.log.next() {
                 Some(Event::Frame(time)) => break time,
                 Some(Event::Corrupt) => is_corrupt = true,
-                // After a seek, frames that are not wanted lack others before them.
-                Some(Event::Complaint(text)) if self.has_begun || !self.has_sought => complaint = Some(text),
+                Some(Event::Complaint(text)) if self.has_begun || !self.is_partial => {
+                    complaint.get_or_insert(text);
+                }
+                // Frames before those that are wanted may be damaged, or lack others before them.
                 Some(Event::Complaint(_)) => {}
                 None => break None,
             }
@@ -116,22 +119,36 @@ impl Decoder {
 
     fn image(&mut self, info: &VideoInfo) -> Result<Option<EncodedImage>, VideoError> {
         let (width, height) = self.size;
-        let count = width * height * self.raw.channels.count();
-        let samples = match self.raw.depth {
-            Depth::Eight => {
-                let mut samples = self.pool.take::<u8>(count);
-                self.fill(info, &mut samples)?.then_some(Samples::U8(samples))
-            }
-            _ => {
-                let mut samples = self.pool.take::<u16>(count);
-                let is_filled = self.fill(info, bytemuck::cast_slice_mut(&mut samples))?;
-                samples.iter_mut().for_each(|sample| *sample = u16::from_le(*sample));
-                is_filled.then_some(Samples::U16(samples))
-            }
+        let count = width * height * self.raw.samples();
+        let samples = if self.raw.depth == Depth::Eight {
+            let mut samples = self.pool.take::<u8>(count);
+            self.fill(info, &mut samples)?.then_some(Samples::U8(samples))
+        } else {
+            let mut samples = self.pool.take::<u16>(count);
+            let is_filled = self.fill(info, bytemuck::cast_slice_mut(&mut samples))?;
+            samples.iter_mut().for_each(|sample| *sample = u16::from_le(*sample));
+            is_filled.then(|| self.deep(samples))
         };
         let Some(samples) = samples else { return Ok(None) };
         let image = EncodedImage::new(width, height, self.raw.channels, self.raw.depth, samples);
         image.map(Some).map_err(|error| failed(io::Error::other(error)))
+    }
+
+    /// Returns RGB of more than 8 bits.
+    fn deep(&self, planes: Vec<u16>) -> Samples {
+        let (width, height) = self.size;
+        let count = self.raw.channels.count();
+        let mut pixels = match self.raw.pixels {
+            Pixels::Rgb => return Samples::U16(planes),
+            Pixels::Yuv(_) | Pixels::Grey(_) => self.pool.take::<u16>(width * height * count),
+        };
+        match self.raw.pixels {
+            Pixels::Yuv(coding) => coding.pixels(&planes, count, &mut pixels),
+            Pixels::Grey(coding) => coding.grey_pixels(&planes, &mut pixels),
+            Pixels::Rgb => {}
+        }
+        self.pool.give(Samples::U16(planes));
+        Samples::U16(pixels)
     }
 
     /// Fills a frame; `false` at the end, an error within a frame.

@@ -1,5 +1,5 @@
 use super::decoder::{Decoded, Decoder, Ended, Next, Start};
-use super::filters::Raw;
+use super::filters::{Pixels, Raw};
 use super::{Damaged, Fault, FrameCondition, ReadOptions, VideoFrame};
 use crate::{Announced, AnnouncedBy, CutShort, Ffmpeg, Timeline, VideoError, VideoInfo};
 use cosmorama::raster::EncodedImage;
@@ -23,6 +23,8 @@ pub struct VideoReader {
     complaint: Option<Complaint>,
     /// Number of frames, found at their end.
     total: Option<u64>,
+    /// Time of the frame before.
+    last: i64,
     may_restart: bool,
     faults: Vec<Fault>,
 }
@@ -91,6 +93,7 @@ impl VideoReader {
             held: None,
             complaint: None,
             total: None,
+            last: 0,
             may_restart: start.seek.is_some(),
             faults: Vec::new(),
         })
@@ -145,7 +148,8 @@ impl VideoReader {
         if self.options.damaged == Damaged::Hold {
             self.held = Some(frame.image.clone());
         }
-        let time = frame.time.or_else(|| self.timeline.time(index)).unwrap_or(0);
+        let time = frame.time.unwrap_or_else(|| self.time(index));
+        self.last = time;
         VideoFrame { index, time, image: frame.image, condition: FrameCondition::Whole }
     }
 
@@ -169,7 +173,8 @@ impl VideoReader {
             }
             self.may_restart = false;
             if let Some(text) = frame.complaint.take() {
-                self.complaint = Some(Complaint { frame: index, text });
+                // The first names the cause.
+                self.complaint.get_or_insert(Complaint { frame: index, text });
             }
             if index < self.expected {
                 self.tell(index, 1, "a second picture has its time".to_owned())?;
@@ -259,7 +264,14 @@ impl VideoReader {
     fn hold(&mut self, image: EncodedImage) -> VideoFrame {
         let index = self.expected;
         self.expected += 1;
-        VideoFrame { index, time: self.timeline.time(index).unwrap_or(0), image, condition: FrameCondition::Held }
+        self.last = self.time(index);
+        VideoFrame { index, time: self.last, image, condition: FrameCondition::Held }
+    }
+
+    /// Returns the time of a frame that says none itself.
+    fn time(&self, index: u64) -> i64 {
+        let later = || self.last.saturating_add(self.info.rate.inverse().rescale(1, self.info.time_base).max(1));
+        self.timeline.time(index).unwrap_or_else(later)
     }
 
     /// Notes frames that are damaged or missing, or fails for them.
@@ -276,19 +288,19 @@ impl VideoReader {
     fn ended(&mut self, ended: Ended) -> Result<(), VideoError> {
         self.decoder = None;
         let heard = ended.complaint.map(|text| Complaint { frame: self.expected, text });
-        self.complaint = heard.or(self.complaint.take());
+        self.complaint = self.complaint.take().or(heard);
         let total = self.all_frames()?;
         if self.expected < total {
             self.total = Some(total);
             return Ok(());
         }
-        let path = || self.info.path.clone();
+        let path = self.info.path.clone();
         let range = self.options.frames.as_ref();
         if let Some(asked) = range.map(|range| *range.end()).filter(|last| *last >= self.expected) {
-            return Err(VideoError::NoSuchFrame { path: path(), asked, last: self.expected.saturating_sub(1) });
+            return Err(VideoError::NoSuchFrame { path, asked, last: self.expected.saturating_sub(1) });
         }
         if let Some(CutShort { expected, found }) = self.info.cut.filter(|_| self.options.damaged == Damaged::Error) {
-            return Err(VideoError::Cut { path: path(), expected, found });
+            return Err(VideoError::Cut { path, expected, found });
         }
         let reason = match self.complaint.take() {
             Some(Complaint { frame, text }) if self.expected > 0 => return self.tell(frame, 1, text),
@@ -296,7 +308,7 @@ impl VideoReader {
             None if ended.is_success && self.expected > 0 => return Ok(()),
             None => "it gives no frame".to_owned(),
         };
-        Err(VideoError::Decode { path: path(), reason })
+        Err(VideoError::Decode { path, reason })
     }
 
     /// Returns the number of frames that the file should give.
@@ -336,8 +348,11 @@ fn start(info: &VideoInfo, timeline: &Timeline, first: u64) -> Start {
 }
 
 fn check_memory(info: &VideoInfo, options: &ReadOptions) -> Result<(), VideoError> {
-    let (raw, (width, height)) = (Raw::of(info), info.size());
-    let needed = width as u128 * height as u128 * (raw.channels.count() * raw.depth.bytes()) as u128;
+    let (raw, (width, height)) = (Raw::of(info)?, info.size());
+    // Planes are held beside the picture that is made of them.
+    let planes = if raw.pixels == Pixels::Rgb { 0 } else { raw.samples() };
+    let bytes = (raw.channels.count() + planes) * raw.depth.bytes();
+    let needed = width as u128 * height as u128 * bytes as u128;
     let limit = options.memory.min(isize::MAX as u64);
     if needed > u128::from(limit) {
         let size = (width as u64, height as u64);

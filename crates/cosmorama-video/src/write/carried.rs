@@ -1,6 +1,8 @@
 //! Sound, subtitles, chapters and metadata of another video: copied where the container can hold them, else coded anew or left out,
 //! which is said.
 
+use std::ffi::OsString;
+
 use super::{Carried, Container, FrameTimes, WriteSettings, timecode};
 use crate::ffmpeg::{input_limits, url};
 use crate::probe::is_boxes;
@@ -10,12 +12,12 @@ use crate::{OtherStream, StreamKind};
 #[derive(Clone, Debug, Default)]
 pub(super) struct Plan {
     /// Arguments of the second input.
-    pub(super) input: Vec<std::ffi::OsString>,
+    pub(super) input: Vec<OsString>,
     /// Arguments of the output.
     pub(super) output: Vec<String>,
     /// Number of streams of sound in the output.
     pub(super) sounds: usize,
-    /// Streams of sound of the source, counted among those, that go to MP4 or MOV from such a file.
+    /// Whether boxes about the sound go along: between MP4 and MOV.
     pub(super) fields: bool,
     /// Statements on what is not copied.
     pub(super) notes: Vec<String>,
@@ -39,19 +41,26 @@ impl Plan {
         // Seconds are counted from the first frame, by ffmpeg from the file's beginning.
         let first = info.start as f64 * info.time_base.to_f64() - info.file_start;
         let start = first + seconds.as_ref().map_or(0.0, |seconds| seconds.start);
-        plan.input.extend(input_limits().map(Into::into));
-        if start > NOTHING {
-            plan.input.extend(["-ss".into(), format!("{start:.6}").into()]);
+        plan.input.extend(input_limits().map(OsString::from));
+        let is_later = start > NOTHING;
+        if is_later {
+            // Packets that begin before would be copied, from the last key frame of the pictures on.
+            plan.output.extend(["-copypriorss".to_owned(), "0".to_owned()]);
+            plan.input.extend(["-ss".to_owned(), format!("{start:.6}")].map(OsString::from));
         }
         if let Some(seconds) = seconds {
             let length = (seconds.end - seconds.start).max(0.0);
-            plan.input.extend(["-t".into(), format!("{length:.6}").into()]);
+            plan.input.extend(["-t".to_owned(), format!("{length:.6}")].map(OsString::from));
             // Chapters that begin later are left out by the output's length alone. No frame is at its very end.
             plan.output.extend(["-t".to_owned(), format!("{:.6}", length + 0.5 / settings.rate().to_f64())]);
         }
-        plan.input.extend(["-i".into(), url(&info.path)]);
+        plan.input.extend([OsString::from("-i"), url(&info.path)]);
         for stream in &info.others {
-            plan.add(stream, container);
+            // MOV keeps the names of its chapters in a stream.
+            let are_chapters = stream.codec == "bin_data" && info.chapters > 0;
+            if !are_chapters {
+                plan.add(stream, container, is_later);
+            }
         }
         plan.fields = container.has_boxes() && is_boxes(&info.container);
         plan.output.extend(["-map_metadata", "1", "-map_chapters", "1"].map(str::to_owned));
@@ -62,10 +71,14 @@ impl Plan {
         plan
     }
 
-    fn add(&mut self, stream: &OtherStream, container: Container) {
+    fn add(&mut self, stream: &OtherStream, container: Container, is_later: bool) {
         let answer = match stream.kind {
             StreamKind::Audio => sound(&stream.codec, container),
-            StreamKind::Subtitle => subtitle(&stream.codec, container),
+            StreamKind::Subtitle => match subtitle(&stream.codec, container) {
+                // ffmpeg would begin with those that are shown before, and delay the pictures until then.
+                Answer::Code(_) if is_later => Answer::Leave,
+                answer => answer,
+            },
             StreamKind::Video | StreamKind::Data => Answer::Leave,
         };
         let kind = match stream.kind {
@@ -81,7 +94,10 @@ impl Plan {
             // The time code has a place of its own.
             Answer::Leave if stream.kind == StreamKind::Data && stream.codec.is_empty() => return,
             Answer::Leave => {
-                return self.notes.push(format!("{name} is left out: {} has no room for it", container.name()));
+                return self.notes.push(format!(
+                    "{name} is left out: {} has no room for it, or not for a part of it",
+                    container.name()
+                ));
             }
             Answer::Copy => "copy",
             Answer::Code(encoder) => {

@@ -172,8 +172,8 @@ impl Codec {
 
 /// Returns the parameters of x265: it alone writes the messages of HDR10 into the stream.
 fn x265(settings: &WriteSettings) -> String {
-    let mut parameters = vec!["log-level=error".to_owned()];
     const PQ: u8 = 16;
+    let mut parameters = vec!["log-level=error".to_owned()];
     if settings.colour.transfer == Some(PQ) {
         parameters.push("hdr10=1:repeat-headers=1".to_owned());
     }

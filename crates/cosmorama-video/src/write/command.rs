@@ -6,6 +6,7 @@ use std::process::{Command, Stdio};
 use super::carried::Plan;
 use super::codec::Encoder;
 use super::{Codec, Container, WriteSettings};
+use crate::colour::Coding;
 use crate::ffmpeg::{EXACT, Log, url};
 use crate::{ColourTags, Ffmpeg, SignalRange};
 
@@ -53,6 +54,9 @@ impl Parts<'_> {
         let range = tags.range.unwrap_or(SignalRange::Narrow).name();
         let scale = if self.codec.is_rgb() {
             format!("scale={EXACT}")
+        } else if self.coding().is_some() {
+            // The matrix is applied before; only chroma samples become fewer.
+            format!("scale=in_range={range}:out_range={range}:{EXACT}")
         } else {
             let matrix = match tags.matrix {
                 Some(9) => "bt2020",
@@ -64,6 +68,15 @@ impl Parts<'_> {
             format!("scale=in_range=pc:out_color_matrix={matrix}:out_range={range}:{EXACT}")
         };
         format!("settb={tick},{scale},format={},setparams={}", self.encoder.pixel_format, parameters(&tags).join(":"))
+    }
+
+    /// Returns the relation by which frames become YUV before ffmpeg gets them; `None` where it gets RGB.
+    pub(super) fn coding(&self) -> Option<Coding> {
+        const BITS: u32 = 10;
+        let is_yuv = self.encoder.pixel_format.ends_with("10le");
+        let tags = self.colour();
+        let range = tags.range.unwrap_or(SignalRange::Narrow);
+        if is_yuv { Coding::new(tags.matrix?, range, BITS) } else { None }
     }
 
     /// Returns the colour tags, with matrix and range chosen.

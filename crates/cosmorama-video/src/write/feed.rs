@@ -1,10 +1,12 @@
 //! Frames on their way to ffmpeg: Matroska with raw pictures. Unlike other raw streams it tells each frame's own time, and tags
 //! which ffmpeg then writes into any container that can hold them.
 
+use std::borrow::Cow;
 use std::io::{self, Write};
 
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
 
+use crate::colour::Coding;
 use crate::{Bounds, HdrTags, MasteringDisplay, Ratio, SpatialTags, SphericalProjection, StereoMode};
 
 /// Header of the stream.
@@ -17,24 +19,29 @@ pub(super) struct Header<'a> {
 }
 
 /// Format of raw pictures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct RawFormat {
     pub(super) depth: Depth,
     pub(super) has_alpha: bool,
+    /// Relation to planes of YUV of 10 bits with all chroma samples; `None` for RGB. ffmpeg would convert more than 8 bits with errors of
+    /// the size of a code of 8 bits.
+    pub(super) coding: Option<Coding>,
 }
 
 impl RawFormat {
     /// Returns the code by which ffmpeg knows the format.
     fn code(self) -> &'static [u8; 4] {
-        match (self.is_deep(), self.has_alpha) {
-            (false, false) => b"RGB\x18",
-            (false, true) => b"RGBA",
-            (true, false) => b"RGB0",
-            (true, true) => b"RBA\x40",
+        match (self.coding.is_some(), self.is_deep(), self.has_alpha) {
+            (true, _, false) => b"Y3\0\x0a",
+            (true, _, true) => b"Y4\0\x0a",
+            (false, false, false) => b"RGB\x18",
+            (false, false, true) => b"RGBA",
+            (false, true, false) => b"RGB0",
+            (false, true, true) => b"RBA\x40",
         }
     }
 
-    /// Returns whether samples have 16 bits.
+    /// Returns whether frames have samples of 16 bits.
     pub(super) fn is_deep(self) -> bool {
         self.depth != Depth::Eight
     }
@@ -42,6 +49,14 @@ impl RawFormat {
     pub(super) fn channels(self) -> Channels {
         if self.has_alpha { Channels::Rgba } else { Channels::Rgb }
     }
+}
+
+/// Returns the bytes of integers, the least significant first.
+fn bytes_of(samples: &[u16]) -> Cow<'_, [u8]> {
+    if cfg!(target_endian = "little") {
+        return bytemuck::cast_slice(samples).into();
+    }
+    samples.iter().flat_map(|sample| sample.to_le_bytes()).collect()
 }
 
 /// Nanoseconds in a second: times are told in them.
@@ -209,11 +224,35 @@ fn spherical(spatial: &SpatialTags) -> Vec<u8> {
     elements
 }
 
-/// Writes a frame at `time` ticks.
-pub(super) fn write_frame(sink: &mut impl Write, frame: &EncodedImage, time: i64, tick: Ratio) -> io::Result<()> {
-    let bytes = sample_bytes(frame.samples());
+/// Time of a frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stamp {
+    /// Number of ticks.
+    pub(super) time: i64,
+    /// Seconds a tick.
+    pub(super) tick: Ratio,
+}
+
+/// Writes a frame.
+pub(super) fn write_frame(
+    sink: &mut impl Write,
+    frame: &EncodedImage,
+    format: RawFormat,
+    stamp: Stamp,
+) -> io::Result<()> {
+    let planes;
+    let bytes = match (format.coding, frame.samples()) {
+        (Some(coding), samples) => {
+            planes = coding.planes(samples, frame.channels().count());
+            bytes_of(&planes)
+        }
+        (None, Samples::U8(samples)) => samples.as_slice().into(),
+        (None, Samples::U16(samples)) => bytes_of(samples),
+        // Frames of floats are refused before.
+        (None, Samples::Half(_) | Samples::Float(_)) => (&[] as &[u8]).into(),
+    };
     let nanosecond = Ratio::new(1, NANOSECONDS as u64).unwrap_or(Ratio::ONE);
-    let time = whole(TIMESTAMP, tick.rescale(time, nanosecond).max(0).cast_unsigned());
+    let time = whole(TIMESTAMP, stamp.tick.rescale(stamp.time, nanosecond).max(0).cast_unsigned());
     let block = BLOCK.len() as u64 + bytes.len() as u64;
     let head = SIMPLE_BLOCK.len() as u64 + 8;
     sink.write_all(CLUSTER)?;
@@ -223,15 +262,4 @@ pub(super) fn write_frame(sink: &mut impl Write, frame: &EncodedImage, time: i64
     sink.write_all(&size(block))?;
     sink.write_all(&BLOCK)?;
     sink.write_all(&bytes)
-}
-
-/// Returns the bytes of integers, the least significant first.
-fn sample_bytes(samples: &Samples) -> std::borrow::Cow<'_, [u8]> {
-    match samples {
-        Samples::U8(samples) => samples.as_slice().into(),
-        Samples::U16(samples) if cfg!(target_endian = "little") => bytemuck::cast_slice(samples).into(),
-        Samples::U16(samples) => samples.iter().flat_map(|sample| sample.to_le_bytes()).collect(),
-        // Frames of floats are refused before.
-        Samples::Half(_) | Samples::Float(_) => (&[] as &[u8]).into(),
-    }
 }

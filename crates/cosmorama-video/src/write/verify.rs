@@ -45,8 +45,8 @@ impl Expected {
         if sounds != self.sounds {
             return Err(not(format!("{sounds} streams of sound"), format!("there should be {}", self.sounds)));
         }
-        let sides = video["side_data_list"].as_array().into_iter().flatten();
-        let is_spherical = sides.into_iter().any(|data| data["side_data_type"] == "Spherical Mapping");
+        let mut sides = video["side_data_list"].as_array().into_iter().flatten();
+        let is_spherical = sides.any(|data| data["side_data_type"] == "Spherical Mapping");
         if self.is_spherical && !is_spherical {
             return Err(not("no spherical tag".to_owned(), "one was asked for".to_owned()));
         }

@@ -7,7 +7,7 @@ use cosmorama_io::pending::{Pending, Unfinished};
 
 use super::carried::Plan;
 use super::command::Parts;
-use super::feed::{Header, RawFormat, write_frame};
+use super::feed::{Header, RawFormat, Stamp, write_frame};
 use super::verify::Expected;
 use super::{Codec, Container, FrameTimes, WriteSettings, Written};
 use crate::ffmpeg::{Child, Log};
@@ -64,7 +64,7 @@ impl VideoWriter {
         let mut child = Child::start(parts.command(ffmpeg), "ffmpeg")?;
         let log = Log::of(child.stderr());
         let stdin = child.stdin().ok_or_else(|| failed(io::ErrorKind::BrokenPipe.into()))?;
-        let format = RawFormat { depth: settings.depth, has_alpha: settings.has_alpha };
+        let format = RawFormat { depth: settings.depth, has_alpha: settings.has_alpha, coding: parts.coding() };
         let encoder = encoder.name;
         let frames = Some(BufWriter::with_capacity(1 << 16, stdin));
         let mut writer = Self {
@@ -110,7 +110,7 @@ impl VideoWriter {
         let time = self.time(time)?;
         let tick = self.settings.tick();
         let written = match &mut self.frames {
-            Some(sink) => write_frame(sink, frame, time, tick),
+            Some(sink) => write_frame(sink, frame, self.format, Stamp { time, tick }),
             None => Err(io::ErrorKind::BrokenPipe.into()),
         };
         written.map_err(|error| self.broken(error))?;
@@ -224,14 +224,7 @@ impl VideoWriter {
 
 /// Returns whether a message means that the file is not whole, even where ffmpeg then ends with success.
 fn is_fatal(text: &str) -> bool {
-    let words = [
-        "No space left",
-        "Input/output error",
-        "Error writing",
-        "av_interleaved_write_frame",
-        "Error muxing",
-        "File ended prematurely",
-    ];
+    let words = ["No space left", "Input/output error", "Error writing", "av_interleaved_write_frame", "Error muxing"];
     words.iter().any(|words| text.contains(words))
 }
 

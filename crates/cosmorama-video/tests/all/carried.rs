@@ -17,7 +17,7 @@ fn source(ffmpeg: &Ffmpeg, folder: &Path) -> VideoInfo {
     let (chapters, subtitles) = (folder.join("chapters.txt"), folder.join("words.srt"));
     std::fs::write(&chapters, CHAPTERS).unwrap();
     std::fs::write(&subtitles, SUBTITLES).unwrap();
-    let path = folder.join("source.mov");
+    let path = folder.join("source.mp4");
     let inputs =
         format!("-f lavfi -i sine=duration=2 -i {} -i {}", chapters.to_str().unwrap(), subtitles.to_str().unwrap());
     let codecs = "-c:v libx264 -c:a aac -c:s mov_text -metadata:s:a language=deu -timecode 01:00:00:00";
@@ -53,7 +53,9 @@ fn all_but_the_pictures_is_copied() {
         let found = ffmpeg.probe(&path).unwrap();
         let of = |kind| found.others.iter().filter(move |other| other.kind == kind);
         assert_eq!(of(StreamKind::Audio).map(|other| other.codec.as_str()).collect::<Vec<_>>(), ["aac"], "{name}");
-        assert_eq!(of(StreamKind::Audio).next().unwrap().language.as_deref(), Some("deu"), "{name}");
+        // MOV knows fewer languages.
+        let language = of(StreamKind::Audio).next().unwrap().language.as_deref();
+        assert_eq!(language, if name == "a.mov" { None } else { Some("deu") }, "{name}");
         assert_eq!(of(StreamKind::Subtitle).count(), 1, "{name}");
         assert_eq!(found.chapters, 2, "{name}");
         assert_eq!(found.timecode.as_deref(), Some("01:00:00:00"), "{name}");
@@ -73,9 +75,9 @@ fn a_part_has_its_own_sound_and_time_code() {
     let folder = tempfile::tempdir().unwrap();
     let info = source(&ffmpeg, folder.path());
     let path = folder.path().join("a.mp4");
-    write(&ffmpeg, &path, &settings(&info, Some(1.0..1.6)), 15).unwrap();
+    write(&ffmpeg, &path, &settings(&info, Some(1.2..1.8)), 15).unwrap();
     let found = ffmpeg.probe(&path).unwrap();
-    assert_eq!(found.timecode.as_deref(), Some("01:00:01:00"));
+    assert_eq!(found.timecode.as_deref(), Some("01:00:01:05"));
     assert_eq!(found.chapters, 1);
     let seconds = probed(&path, "-select_streams a -show_entries stream=duration -of csv=p=0");
     let seconds: f64 = seconds.trim().parse().unwrap();

@@ -35,7 +35,7 @@ pub(crate) fn raw(path: &Path, format: &str) -> Vec<u8> {
 
 /// A moving picture as input of ffmpeg.
 pub(crate) fn moving(width: usize, height: usize, rate: &str, frames: u64) -> String {
-    format!("-f lavfi -i testsrc2=size={width}x{height}:rate={rate} -frames:v {frames}")
+    format!("-f lavfi -i testsrc2=size={width}x{height}:rate={rate},trim=end_frame={frames}")
 }
 
 /// All frames, or the error.

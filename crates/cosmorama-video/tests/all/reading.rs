@@ -148,9 +148,10 @@ fn a_frame_larger_than_permitted_is_refused_before_it_is_decoded() {
     run(&format!("{} -c:v ffv1 -pix_fmt yuv420p10le", moving(64, 32, "25", 2)), &path);
     let info = ffmpeg.probe(&path).unwrap();
     let options = |memory| ReadOptions { memory, ..ReadOptions::default() };
-    let needed = 64 * 32 * 3 * 2;
+    // Planes, and the picture that is made of them.
+    let needed = 64 * 32 * (3 + 3) * 2;
     let error = VideoReader::open(&ffmpeg, &info, options(needed - 1)).unwrap_err().to_string();
-    assert!(error.contains("12288 bytes") && error.contains("64x32"), "{error}");
+    assert!(error.contains("24576 bytes") && error.contains("64x32"), "{error}");
     assert!(VideoReader::open(&ffmpeg, &info, options(needed)).is_ok());
 }
 

@@ -47,3 +47,42 @@ pub(crate) fn write_sound_fields(path: &Path, fields: &[Option<Vec<u8>>]) -> Res
 fn damaged(path: &Path, fault: &str) -> VideoError {
     VideoError::Boxes { path: path.to_owned(), reason: format!("its boxes are damaged ({fault}); make the file again") }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::tree::boxed;
+    use super::*;
+
+    /// Returns a track of sound with these extending boxes.
+    fn sound(extensions: &[u8]) -> Vec<u8> {
+        let entry = boxed(b"mp4a", &[&[0; 28], extensions].concat()).unwrap();
+        let descriptions = boxed(b"stsd", &[&[0, 0, 0, 0, 0, 0, 0, 1], entry.as_slice()].concat()).unwrap();
+        let table = boxed(b"minf", &boxed(b"stbl", &descriptions).unwrap()).unwrap();
+        let handler = boxed(b"hdlr", b"\0\0\0\0\0\0\0\0soun\0\0\0\0").unwrap();
+        boxed(b"trak", &boxed(b"mdia", &[handler, table].concat()).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn the_field_of_a_sound_goes_into_another_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let (from, to) = (folder.path().join("from.mp4"), folder.path().join("to.mp4"));
+        let (field, other) = (boxed(b"SA3D", b"ambisonics").unwrap(), boxed(b"esds", b"codec").unwrap());
+        let file = |tracks: &[Vec<u8>]| {
+            [boxed(b"moov", &tracks.concat()).unwrap(), boxed(b"mdat", b"frames").unwrap()].concat()
+        };
+        let both = [other.clone(), field.clone()].concat();
+        std::fs::write(&from, file(&[sound(&other), sound(&both)])).unwrap();
+        std::fs::write(&to, file(&[sound(&other), sound(&other)])).unwrap();
+        let fields = sound_fields(&from).unwrap();
+        assert_eq!(fields, [None, Some(field.clone())]);
+        // Twice: the second takes the place of the first.
+        for _ in 0..2 {
+            write_sound_fields(&to, &fields).unwrap();
+            assert_eq!(sound_fields(&to).unwrap(), fields);
+        }
+        let written = std::fs::read(&to).unwrap();
+        assert_eq!(written.windows(field.len()).filter(|bytes| *bytes == field).count(), 1);
+        let frames = written.windows(6).position(|bytes| bytes == b"frames").unwrap();
+        assert_eq!(frames, file(&[sound(&other), sound(&other)]).len() - 6);
+    }
+}
