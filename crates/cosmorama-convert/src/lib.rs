@@ -18,7 +18,6 @@ mod packing;
 mod settings;
 mod source;
 mod target;
-mod video;
 
 pub use colour::{InputTransfer, LayerRules, ThinAlpha, contents};
 pub use conversion::{
@@ -39,8 +38,8 @@ pub use settings::{
     LightLevel, LightNormalisation, LightScale, LightSettings, LimitSettings, MotionBlur, NormalSpace, OcioSettings,
     PoseFile,
 };
+pub use source::video::{DamagedFrames, VideoSettings, Videos, is_video};
 pub use source::{
     Disk, Files, InMemory, MemoryBudget, Stamp, ViewFiles, existing_frames, peak_bytes, probe, read, with_videos,
 };
 pub use target::{CHAIN_EDGE, Picture, is_cube_of_light};
-pub use video::{DamagedFrames, VideoSettings, Videos, is_video};

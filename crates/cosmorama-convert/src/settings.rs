@@ -10,8 +10,8 @@ use cosmorama_io::pending::Unfinished;
 use cosmorama_io::{CameraPath, Compression, FrameList, Remark};
 use cosmorama_spec::{FilterName, FrameMap, KernelName, MemorySize, Missing, Size, Spec, TimeRanges, TransferName};
 
+use crate::source::video::VideoSettings;
 use crate::source::{Disk, Files};
-use crate::video::VideoSettings;
 
 /// Settings of a conversion from an input, in any form, to pictures of another projection.
 ///

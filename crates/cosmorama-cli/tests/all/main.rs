@@ -71,20 +71,19 @@ mod sequence {
     mod choices;
     #[cfg(target_os = "linux")]
     mod disks;
+    #[cfg(feature = "video")]
+    mod films;
     mod motion;
     mod resume;
     #[cfg(target_os = "linux")]
     mod sequence_memory;
     mod sequences;
     mod sky;
-    mod verify;
-}
-
-#[cfg(feature = "video")]
-mod video {
-    mod conversions;
-    mod films;
+    #[cfg(feature = "video")]
     mod streams;
+    mod verify;
+    #[cfg(feature = "video")]
+    mod videos;
 }
 
 mod usage {

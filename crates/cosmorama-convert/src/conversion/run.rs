@@ -19,7 +19,7 @@ use crate::engine::{
 use crate::job::options::write_options;
 use crate::job::{Content, ConvertJob, FrameOutputs};
 use crate::settings::LightSettings;
-use crate::video::{FrameName, Videos};
+use crate::source::video::{FrameName, Videos};
 
 impl Checked {
     /// Makes the outputs. Each appears whole or not at all.

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use crate::diagnostic::{Diagnostic, Result};
 use crate::job::ConvertJob;
 use crate::settings::Conversion;
+use crate::source::video::{MadeVideos, VideoPlan, VideoSource};
 use crate::target::TargetFile;
-use crate::video::{MadeVideos, VideoPlan, VideoSource};
 
 /// Checks the settings of the videos that are made, if there are any.
 pub(super) fn check(settings: &Conversion, job: &ConvertJob) -> Result<()> {

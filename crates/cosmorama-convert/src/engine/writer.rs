@@ -7,7 +7,7 @@ use cosmorama_io::{Carried, LayeredImage, Plane, Remark, WriteOptions, write_lay
 
 use crate::colour::{Light, LightConversion, PictureNames};
 use crate::diagnostic::Result;
-use crate::video::MadeVideos;
+use crate::source::video::MadeVideos;
 
 /// A picture and its mip levels.
 pub(crate) enum Levels {

@@ -13,7 +13,7 @@ use cosmorama_io::{
 use super::decoded_picture::DecodedPicture;
 use super::stamp::Stamp;
 use crate::source::MemoryBudget;
-use crate::video::{DamagedFrames, FrameName, RawFiles, Videos};
+use crate::source::video::{DamagedFrames, FrameName, RawFiles, Videos};
 
 /// Greatest length in bytes of a file that is read whole, which is a camera's path or belongs to one.
 const LONGEST: u64 = 1 << 30;

@@ -6,6 +6,7 @@ pub(crate) mod memory_budget;
 pub(crate) mod stamp;
 pub(crate) mod system_memory;
 pub(crate) mod unread;
+pub(crate) mod video;
 pub(crate) mod view_files;
 pub(crate) mod wanted_frames;
 

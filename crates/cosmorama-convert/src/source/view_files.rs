@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 
 use cosmorama_io::FramePattern;
 
-use crate::video::{FrameName, is_video};
+use crate::source::video::{FrameName, is_video};
 
 /// File of a view, or its files by frame.
 #[derive(Clone, Debug)]

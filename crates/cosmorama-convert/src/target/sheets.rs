@@ -9,9 +9,9 @@ use crate::diagnostic::{Code, MIPS, Result, SIZE, TO, usage, usage_as};
 use crate::packing::Place;
 use crate::settings::GeometrySettings;
 use crate::source::ViewFiles;
+use crate::source::video::{RawKind, is_video};
 use crate::target::Picture;
 use crate::target::picture::world_of;
-use crate::video::{RawKind, is_video};
 
 /// An image to make.
 #[derive(Clone)]

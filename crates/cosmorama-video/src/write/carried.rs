@@ -42,7 +42,10 @@ impl Plan {
         let first = info.start as f64 * info.time_base.to_f64() - info.file_start;
         let start = first + seconds.as_ref().map_or(0.0, |seconds| seconds.start);
         plan.input.extend(input_limits().map(OsString::from));
-        if start > NOTHING {
+        let is_later = start > NOTHING;
+        if is_later {
+            // Packets that begin before would be copied, from the last key frame of the pictures on.
+            plan.output.extend(["-copypriorss".to_owned(), "0".to_owned()]);
             plan.input.extend(["-ss".to_owned(), format!("{start:.6}")].map(OsString::from));
         }
         if let Some(seconds) = seconds {
@@ -53,7 +56,11 @@ impl Plan {
         }
         plan.input.extend([OsString::from("-i"), url(&info.path)]);
         for stream in &info.others {
-            plan.add(stream, container);
+            // MOV keeps the names of its chapters in a stream.
+            let are_chapters = stream.codec == "bin_data" && info.chapters > 0;
+            if !are_chapters {
+                plan.add(stream, container, is_later);
+            }
         }
         plan.fields = container.has_boxes() && is_boxes(&info.container);
         plan.output.extend(["-map_metadata", "1", "-map_chapters", "1"].map(str::to_owned));
@@ -64,10 +71,14 @@ impl Plan {
         plan
     }
 
-    fn add(&mut self, stream: &OtherStream, container: Container) {
+    fn add(&mut self, stream: &OtherStream, container: Container, is_later: bool) {
         let answer = match stream.kind {
             StreamKind::Audio => sound(&stream.codec, container),
-            StreamKind::Subtitle => subtitle(&stream.codec, container),
+            StreamKind::Subtitle => match subtitle(&stream.codec, container) {
+                // ffmpeg would begin with those that are shown before, and delay the pictures until then.
+                Answer::Code(_) if is_later => Answer::Leave,
+                answer => answer,
+            },
             StreamKind::Video | StreamKind::Data => Answer::Leave,
         };
         let kind = match stream.kind {
@@ -83,7 +94,10 @@ impl Plan {
             // The time code has a place of its own.
             Answer::Leave if stream.kind == StreamKind::Data && stream.codec.is_empty() => return,
             Answer::Leave => {
-                return self.notes.push(format!("{name} is left out: {} has no room for it", container.name()));
+                return self.notes.push(format!(
+                    "{name} is left out: {} has no room for it, or not for a part of it",
+                    container.name()
+                ));
             }
             Answer::Copy => "copy",
             Answer::Code(encoder) => {

@@ -17,7 +17,7 @@ fn source(ffmpeg: &Ffmpeg, folder: &Path) -> VideoInfo {
     let (chapters, subtitles) = (folder.join("chapters.txt"), folder.join("words.srt"));
     std::fs::write(&chapters, CHAPTERS).unwrap();
     std::fs::write(&subtitles, SUBTITLES).unwrap();
-    let path = folder.join("source.mov");
+    let path = folder.join("source.mp4");
     let inputs =
         format!("-f lavfi -i sine=duration=2 -i {} -i {}", chapters.to_str().unwrap(), subtitles.to_str().unwrap());
     let codecs = "-c:v libx264 -c:a aac -c:s mov_text -metadata:s:a language=deu -timecode 01:00:00:00";
@@ -53,7 +53,9 @@ fn all_but_the_pictures_is_copied() {
         let found = ffmpeg.probe(&path).unwrap();
         let of = |kind| found.others.iter().filter(move |other| other.kind == kind);
         assert_eq!(of(StreamKind::Audio).map(|other| other.codec.as_str()).collect::<Vec<_>>(), ["aac"], "{name}");
-        assert_eq!(of(StreamKind::Audio).next().unwrap().language.as_deref(), Some("deu"), "{name}");
+        // MOV knows fewer languages.
+        let language = of(StreamKind::Audio).next().unwrap().language.as_deref();
+        assert_eq!(language, if name == "a.mov" { None } else { Some("deu") }, "{name}");
         assert_eq!(of(StreamKind::Subtitle).count(), 1, "{name}");
         assert_eq!(found.chapters, 2, "{name}");
         assert_eq!(found.timecode.as_deref(), Some("01:00:00:00"), "{name}");

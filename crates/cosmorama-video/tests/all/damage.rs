@@ -76,7 +76,9 @@ fn faults_are_listed() {
     let path = folder.path().join("a.mov");
     run(&format!("{} -c:v png", moving(128, 64, "25", 20)), &path);
     // The first, two in a row, and the last.
-    [0, 7, 8, 19].iter().for_each(|number| damage(&path, *number));
+    for number in [0, 7, 8, 19] {
+        damage(&path, number);
+    }
     let mut reader = VideoReader::open(&ffmpeg, &ffmpeg.probe(&path).unwrap(), with(Damaged::Hold)).unwrap();
     let mut found = Vec::new();
     while let Some(frame) = reader.next_frame().unwrap() {

@@ -30,19 +30,18 @@ const ROOMS: [Room; 15] = [
 ];
 
 /// The rooms of `cosmorama-convert`, lowest floor first.
-const CONVERT_ROOMS: [Room; 12] = [
+const CONVERT_ROOMS: [Room; 11] = [
     ("diagnostic", &[]),
-    ("video", &["diagnostic"]),
-    ("source", &["diagnostic", "video"]),
+    ("source", &["diagnostic"]),
     ("packing", &["diagnostic"]),
-    ("settings", &["source", "video"]),
+    ("settings", &["source"]),
     ("detect", &["diagnostic", "source", "packing"]),
     ("input", &["diagnostic", "source", "packing", "settings", "detect"]),
-    ("target", &["diagnostic", "source", "packing", "settings", "video"]),
+    ("target", &["diagnostic", "source", "packing", "settings"]),
     ("colour", &["diagnostic", "settings", "input", "target"]),
-    ("job", &["diagnostic", "source", "settings", "detect", "input", "target", "colour", "video"]),
-    ("engine", &["diagnostic", "source", "packing", "settings", "detect", "input", "target", "colour", "job", "video"]),
-    ("conversion", &["diagnostic", "source", "settings", "input", "target", "colour", "job", "engine", "video"]),
+    ("job", &["diagnostic", "source", "settings", "detect", "input", "target", "colour"]),
+    ("engine", &["diagnostic", "source", "packing", "settings", "detect", "input", "target", "colour", "job"]),
+    ("conversion", &["diagnostic", "source", "settings", "input", "target", "colour", "job", "engine"]),
 ];
 
 /// Crates whose rooms have floors.

@@ -71,14 +71,14 @@ impl From<OcioArgs> for OcioSettings {
 #[command(help_template = with_examples(&EXAMPLES))]
 #[command(after_help = SEE_MORE, after_long_help = after_long_help())]
 pub(crate) struct ConvertArgs {
-    /// An image, a pattern, a video or builtin:NAME; - is standard input
+    /// An image, pattern, video or builtin:NAME; - is standard input
     ///
     /// A pattern has {face} or %c where faces' names stand, and ####, @@@@ or %04d where frame numbers do. A world file (.toml)
     /// holds many views, each with image, spec, mask, priority and feather in degrees; a Hugin project (.pto) is read, too. A video is
     /// read through the installed ffmpeg (docs/video.md).
     #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
     pub(crate) input: String,
-    /// An image, a pattern or a video, by its extension; - is standard output
+    /// An image, pattern or video, by its extension; - is standard output
     #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
     pub(crate) output: String,
     #[command(flatten)]

@@ -25,9 +25,9 @@ use crate::job::files_read;
 use crate::job::gaps::{Shot, find_gaps};
 use crate::job::options::filter;
 use crate::settings::{GeometrySettings, LimitSettings};
+use crate::source::video::DamagedFrames;
 use crate::source::{Access, ChosenFiles, DecodedPicture, Disk, Files, MemoryBudget};
 use crate::target::{Movement, Picture, TargetView, aspect, time};
-use crate::video::DamagedFrames;
 
 /// Settings of an explanation, possibly for an input that does not exist yet.
 #[derive(Clone, Debug)]

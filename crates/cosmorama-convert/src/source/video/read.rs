@@ -12,7 +12,7 @@ use cosmorama_video::{
 };
 use thiserror::Error;
 
-use super::raw::{RawInfo, RawReader};
+use super::raw::{RawInfo, RawReader, foreign};
 use super::{DamagedFrames, FrameName, RawFiles, RawKind, described};
 
 /// Videos among the inputs of a conversion. Each is opened when it is first asked for.
@@ -180,14 +180,6 @@ impl Videos {
 
     fn sources(&self) -> MutexGuard<'_, BTreeMap<PathBuf, Arc<Source>>> {
         self.sources.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
-
-/// Wraps the error of a reader or writer of videos.
-pub(super) fn foreign(error: VideoError) -> IoError {
-    match error {
-        VideoError::Output(error) => error,
-        error => IoError::Video(Box::new(error)),
     }
 }
 

@@ -12,7 +12,7 @@ use cosmorama_video::{
     ByteOrder, PamReader, PamWriter, PfmReader, PfmWriter, Ratio, VideoError, Y4mFormat, Y4mReader, Y4mWriter,
 };
 
-use super::{RawKind, read::foreign};
+use super::RawKind;
 
 /// Bytes of a stream.
 pub(super) type Bytes = Box<dyn ReadSeek + Send>;
@@ -45,6 +45,14 @@ enum Pictures {
     Y4m(Y4mWriter<BufWriter<File>>),
     Pam(PamWriter<BufWriter<File>>),
     Pfm(PfmWriter<BufWriter<File>>),
+}
+
+/// Wraps the error of a reader or writer of videos.
+pub(super) fn foreign(error: VideoError) -> IoError {
+    match error {
+        VideoError::Output(error) => error,
+        error => IoError::Video(Box::new(error)),
+    }
 }
 
 /// Does work on a thread of its own. A thread of a pool that waits for others in the midst of this work might be given another

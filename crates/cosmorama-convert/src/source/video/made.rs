@@ -14,8 +14,7 @@ use cosmorama_video::{
     WriteSettings,
 };
 
-use super::raw::RawWriter;
-use super::read::foreign;
+use super::raw::{RawWriter, foreign};
 use super::{DamagedFrames, RawKind, VideoPlan, Videos, described};
 use crate::diagnostic::{Code, Diagnostic, FPS, FRAMES, Result, VIDEO_CODEC, usage, usage_as};
 
