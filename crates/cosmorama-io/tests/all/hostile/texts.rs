@@ -185,6 +185,14 @@ fn more_names_than_programs_write_are_refused() {
     }
 }
 
+/// Times that are finite may be of frames that are not.
+#[test]
+fn frames_beyond_all_numbers_are_refused_with_their_place() {
+    let text = "time,yaw,pitch,roll\n-1e308,0,0,0\n1,0,0,0\n";
+    let error = CameraPath::parse(text.as_bytes(), Path::new("far.csv"), Some(25.0)).unwrap_err().to_string();
+    assert!(error.contains("far.csv: line 2: ") && error.contains("frame -inf"), "{error}");
+}
+
 /// Each pose is compared with the one before it, and with no other.
 #[test]
 fn long_paths_take_time_by_their_length() {
