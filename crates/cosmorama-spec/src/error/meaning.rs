@@ -84,6 +84,9 @@ pub fn did_you_mean(typed: &str, known: &[&str]) -> String {
 /// Finds the known name that is most like what was typed.
 pub fn nearest<'k>(typed: &str, known: &[&'k str]) -> Option<&'k str> {
     let typed = typed.to_ascii_lowercase();
+    // Half of the letters must be alike. What is longer than twice a name is not, and to compare it takes time by its length.
+    let letters = typed.chars().count();
+    let is_near = |name: &&str| letters <= 2 * name.chars().count();
     let likeness = |name: &&str| (strsim::normalized_damerau_levenshtein(&typed, name) * 1000.0) as i64;
-    known.iter().copied().max_by_key(likeness).filter(|best| likeness(best) >= 500)
+    known.iter().copied().filter(is_near).max_by_key(likeness).filter(|best| likeness(best) >= 500)
 }

@@ -66,6 +66,9 @@ const MILLISECONDS: &str = "timestamp_ms";
 /// of their number.
 const MOST_COLUMNS: usize = 256;
 
+/// Greatest number of a frame. Beyond, numbers of frames are not one apart, and times in frames are infinite at last.
+const GREATEST_FRAME: f64 = 1e15;
+
 /// Columns that a path may have.
 const EXPECTED: &str = "expected frame,yaw,pitch,roll or frame,qw,qx,qy,qz, and fov if it changes; time in seconds may stand for \
                         frame";
@@ -215,7 +218,13 @@ impl Columns {
         if let Some(fov) = fov.filter(|fov| !(*fov > 0.0 && *fov <= 360.0)) {
             return Err(table.error(row, &format!("fov is {fov}; expected an angle above 0° and at most 360°")));
         }
-        Ok(PathPose { frame: number(self.time)? * self.rate, orientation, fov: fov.map(Angle::from_degrees) })
+        let frame = number(self.time)? * self.rate;
+        if frame.abs() > GREATEST_FRAME {
+            let found =
+                format!("it is of frame {frame:e}; expected one from -{GREATEST_FRAME:e} to {GREATEST_FRAME:e}");
+            return Err(table.error(row, &found));
+        }
+        Ok(PathPose { frame, orientation, fov: fov.map(Angle::from_degrees) })
     }
 
     /// Turns a path by Gyroflow so that it begins at the front: its world has an orientation of its own. A smoothed path begins as

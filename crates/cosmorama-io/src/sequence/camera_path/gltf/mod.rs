@@ -95,7 +95,8 @@ fn frames(spins: &[Spin], fps: f64) -> Option<Vec<f64>> {
     let mut frames: Vec<f64> = spins.iter().flat_map(Spin::times).map(|time| snapped(time * fps)).collect();
     frames.sort_by(f64::total_cmp);
     let (first, last) = (*frames.first()?, *frames.last()?);
-    if last - first > MOST_FRAMES {
+    // Of infinite times the difference is no number.
+    if (last - first).is_nan() || last - first > MOST_FRAMES {
         return None;
     }
     let mut moving = spins.iter().filter(|spin| spin.moves());
