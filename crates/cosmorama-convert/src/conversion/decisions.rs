@@ -2,7 +2,7 @@
 
 use cosmorama::raster::Transfer;
 use cosmorama_io::{EnvMap, FacePattern, Header};
-use cosmorama_spec::{DepthName, FilterName, MemorySize, TransferName};
+use cosmorama_spec::{DepthName, FilterName, TransferName};
 
 use super::Checked;
 use crate::diagnostic::{
@@ -193,7 +193,7 @@ impl Checked {
     fn of_memory(&self) -> Decision {
         let limits = &self.settings.limits;
         let why = match limits.memory {
-            Some(MemorySize::Bytes(_)) | Some(MemorySize::Part(_)) => format!("as {MEMORY} says"),
+            Some(_) => format!("as {MEMORY} says"),
             None => "three quarters of what is free".to_owned(),
         };
         let threads = self.pool.current_num_threads();
