@@ -55,10 +55,11 @@ impl Timeline {
         let ticks = |time_base: &Ratio| (seconds.max(0.0) / time_base.to_f64()).round() as i64;
         match self {
             Self::Even { rate, .. } => {
-                // Times that users write are rounded to a millisecond or a microsecond.
+                // Times that users write are rounded to a millisecond.
+                let rounding = (0.0005 * rate.to_f64()).min(0.25);
                 let frame = seconds.max(0.0) * rate.to_f64();
                 let nearest = frame.round();
-                if (frame - nearest).abs() < 0.05 { nearest as u64 } else { frame.ceil() as u64 }
+                if (frame - nearest).abs() <= rounding { nearest as u64 } else { frame.ceil() as u64 }
             }
             Self::Listed { times, time_base } => {
                 let first = times.first().copied().unwrap_or(0);
