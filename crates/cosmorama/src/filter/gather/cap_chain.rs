@@ -40,7 +40,9 @@ impl CapChain {
         let across = centre.vector().cross(major).normalize_or_zero() / minor;
         let axes = [major / (length * length), across];
         let one = Self { filled: minor / length, axes, ..Self::of(centre, length) };
-        if length <= ROUND * minor || length > LONG {
+        // Of an ellipse that is no number, one cap holds all that could be meant.
+        let is_long = length > ROUND * minor && length <= LONG;
+        if !is_long {
             return one;
         }
         let count = (length / minor).ceil().min(MOST);
