@@ -85,7 +85,7 @@ mod tests {
                 thin.fill_row(subsampling, j, &mut filled, &mut mixed);
                 for (i, found) in filled.iter().enumerate().take(width - 3).skip(3) {
                     let expected = ramp(i as f32, j as f32);
-                    assert!((found - expected).abs() < 1e-4, "{subsampling:?} {i} {j}: {found} {expected}");
+                    assert!((found - expected).abs() < 1e-4, "{subsampling:?} {i} {j}: {} {expected}", found);
                 }
             }
         }
