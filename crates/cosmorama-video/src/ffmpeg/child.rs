@@ -96,13 +96,14 @@ pub(super) fn output(
     let stdout = drain(child.stdout(), limit);
     let stderr = drain(child.stderr(), limit);
     let status = child.wait_for(patience).map_err(failed)?;
-    // Its pipes end with it.
+    // It is ended if it has not.
     drop(child);
-    let stdout = joined(stdout).map_err(failed)?;
-    let stderr = String::from_utf8_lossy(&joined(stderr).map_err(failed)?).into_owned();
     let Some(status) = status else {
+        // Its pipes may be open still, in programs that it has started.
         return Err(VideoError::TooSlow { path: path.to_owned(), program, seconds: patience.as_secs() });
     };
+    let stdout = joined(stdout).map_err(failed)?;
+    let stderr = String::from_utf8_lossy(&joined(stderr).map_err(failed)?).into_owned();
     Ok(Said { is_success: status.success(), stdout, stderr })
 }
 

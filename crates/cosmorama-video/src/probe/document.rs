@@ -51,6 +51,10 @@ impl Ffmpeg {
 
     /// Adds what only the file's boxes, or its first frame, tell.
     fn complete(&self, info: &mut VideoInfo) -> Result<(), VideoError> {
+        // Matroska tells a rate, whatever the times of its frames.
+        if info.container.starts_with("matroska") && !info.is_variable {
+            info.is_variable = !self.begins_evenly(info)?;
+        }
         if is_boxes(&info.container) {
             match SpatialTags::read(&info.path) {
                 Ok(tags) => info.spatial = tags.or(info.spatial),

@@ -55,10 +55,11 @@ impl Timeline {
         let ticks = |time_base: &Ratio| (seconds.max(0.0) / time_base.to_f64()).round() as i64;
         match self {
             Self::Even { rate, .. } => {
-                // Times that users write are rounded to a millisecond or a microsecond.
+                // Times that users write are rounded to a millisecond.
+                let rounding = (0.0005 * rate.to_f64()).min(0.25);
                 let frame = seconds.max(0.0) * rate.to_f64();
                 let nearest = frame.round();
-                if (frame - nearest).abs() < 0.05 { nearest as u64 } else { frame.ceil() as u64 }
+                if (frame - nearest).abs() <= rounding { nearest as u64 } else { frame.ceil() as u64 }
             }
             Self::Listed { times, time_base } => {
                 let first = times.first().copied().unwrap_or(0);
@@ -110,10 +111,25 @@ impl Ffmpeg {
         Ok(Timeline::Listed { times, time_base: info.time_base })
     }
 
+    /// Finds out whether the first hundred frames follow each other at the rate that is told.
+    pub(super) fn begins_evenly(&self, info: &VideoInfo) -> Result<bool, VideoError> {
+        /// Frames at the end of those that are read, before which others may come that were not read.
+        const UNSURE: usize = 20;
+        let times = self.times_of(info, &["-read_intervals", "%+#120"])?;
+        let sure = times.len().saturating_sub(if times.len() < 100 { 0 } else { UNSURE });
+        let even = Timeline::Even { start: info.start, time_base: info.time_base, rate: info.rate };
+        Ok(times[..sure].iter().zip(0..).all(|(time, frame)| even.frame(*time) == frame))
+    }
+
     /// Reads the times of all coded frames that are shown, in their order.
     pub(crate) fn packet_times(&self, info: &VideoInfo) -> Result<Vec<i64>, VideoError> {
+        self.times_of(info, &[])
+    }
+
+    fn times_of(&self, info: &VideoInfo, part: &[&str]) -> Result<Vec<i64>, VideoError> {
         let stream = info.stream.to_string();
-        let arguments = ["-select_streams", &stream, "-show_entries", "packet=pts,flags", "-of", "csv=p=0"];
+        let entries = ["-select_streams", &stream, "-show_entries", "packet=pts,flags", "-of", "csv=p=0"];
+        let arguments = [&entries, part].concat();
         let mut times = Vec::new();
         self.ffprobe_lines(&info.path, &arguments, |line| {
             let mut fields = line.split(',');

@@ -104,7 +104,7 @@ impl Decoder {
         let time = loop {
             match self.log.next() {
                 Some(Event::Frame(time)) => break time,
-                Some(Event::Corrupt) => is_corrupt = true,
+                Some(Event::Corrupt) => is_corrupt = self.has_begun || !self.is_partial,
                 Some(Event::Complaint(text)) if self.has_begun || !self.is_partial => {
                     complaint.get_or_insert(text);
                 }

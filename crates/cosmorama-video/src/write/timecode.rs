@@ -10,7 +10,13 @@ pub(super) fn later(timecode: &str, frames: u64, rate: Ratio) -> Option<String> 
     let parts = timecode.split([':', ';', '.']).map(|part| part.parse().ok()).collect::<Option<Vec<u64>>>()?;
     let &[hours, minutes, seconds, frame] = parts.as_slice() else { return None };
     let dropped = if is_dropping { base / 15 } else { 0 };
-    if hours > 23 || minutes > 59 || seconds > 59 || base == 0 || frame >= base || (is_dropping && base % 30 != 0) {
+    if hours > 23
+        || minutes > 59
+        || seconds > 59
+        || base == 0
+        || frame >= base
+        || (is_dropping && !base.is_multiple_of(30))
+    {
         return None;
     }
     let all_minutes = hours * 60 + minutes;

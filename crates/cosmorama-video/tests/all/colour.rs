@@ -46,7 +46,9 @@ fn yuv([red, green, blue]: [f64; 3], matrix: u8, range: SignalRange, bits: u32) 
 /// Colours of YUV that are colours of RGB, one for each of 16 × 16 pixels.
 fn colours(matrix: u8, range: SignalRange, bits: u32) -> Vec<[u16; 3]> {
     let levels = |i: u32| [i % 7, i / 7 % 6, i / 42 % 6].map(|level| f64::from(level) / 6.0);
-    (0..256).map(|i| yuv(levels(i), matrix, range, bits).map(|code| code.round() as u16)).collect()
+    (0..256)
+        .map(|i| yuv(levels(i), matrix, range, bits).map(|code| code.round().min(f64::from((1 << bits) - 1)) as u16))
+        .collect()
 }
 
 fn name(matrix: u8) -> &'static str {
@@ -149,8 +151,8 @@ fn what_is_written_has_the_codes_of_its_tags() {
     ] {
         let path = folder.path().join(format!("{matrix}.mp4"));
         let depth = if bits > 8 { Depth::Sixteen } else { Depth::Eight };
-        // Patches of 8 x 8 pixels, so that chroma has one colour in its middle.
-        let pixel = |at: usize| levels(at / 64 / 8 * 8 + at % 64 / 8);
+        // Patches of 16 x 16 pixels, so that chroma has one colour in its middle.
+        let pixel = |at: usize| levels(at / 64 / 16 * 4 + at % 64 / 16);
         let flat = (0..64 * 64).flat_map(pixel);
         let samples = match depth {
             Depth::Eight => cosmorama::raster::Samples::U8(flat.map(|value| (value * 255.0).round() as u8).collect()),
@@ -188,8 +190,8 @@ fn what_is_written_has_the_codes_of_its_tags() {
         } else {
             bytes.iter().map(|code| f64::from(*code)).collect()
         };
-        for patch in 0..64 {
-            let (i, j) = (patch % 8 * 8 + 4, patch / 8 * 8 + 4);
+        for patch in 0..16 {
+            let (i, j) = (patch % 4 * 16 + 8, patch / 4 * 16 + 8);
             let chroma = 64 * 64 + j / 2 * 32 + i / 2;
             let found = [codes[j * 64 + i], codes[chroma], codes[chroma + 32 * 32]];
             let expected = yuv(levels(patch), matrix, range, bits);

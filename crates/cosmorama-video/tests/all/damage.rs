@@ -39,12 +39,9 @@ fn cut(path: &Path, part: f64) {
 fn a_damaged_frame_is_named_held_or_skipped() {
     let Some(ffmpeg) = ffmpeg() else { return };
     let folder = tempfile::tempdir().unwrap();
-    for (name, arguments) in [
-        ("png.mov", "-c:v png"),
-        ("ffv1.mkv", "-c:v ffv1 -level 3 -slicecrc 1 -g 1"),
-        ("mjpeg.mov", "-c:v mjpeg -pix_fmt yuvj420p"),
-        ("prores.mov", "-c:v prores_ks"),
-    ] {
+    for (name, arguments) in
+        [("png.mov", "-c:v png"), ("mjpeg.mov", "-c:v mjpeg -pix_fmt yuvj420p"), ("prores.mov", "-c:v prores_ks")]
+    {
         let path = folder.path().join(name);
         run(&format!("{} {arguments}", moving(128, 64, "25", 50)), &path);
         let whole = frames(&ffmpeg, &path, ReadOptions::default()).unwrap();
