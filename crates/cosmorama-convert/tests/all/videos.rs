@@ -38,7 +38,7 @@ fn a_stream_in_memory_becomes_one_file_of_all_frames_in_order() {
         let output = folder.path().join(format!("{threads}.pam"));
         let report = run(dome(stream(10..40), output.display().to_string()).threads(threads));
         assert_eq!((report.frames, report.inputs), (30, vec![PathBuf::from("sky.pam")]));
-        assert_eq!(report.outputs, [output.clone()]);
+        assert_eq!(report.outputs, std::slice::from_ref(&output));
         assert_eq!(middles(&std::fs::read(output).unwrap()), (10..40).collect::<Vec<u8>>());
     }
 }
