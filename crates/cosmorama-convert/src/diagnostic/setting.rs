@@ -21,7 +21,10 @@ macro_rules! settings {
             }
         }
 
-        $(pub(crate) const $mark: Mark = Mark(Setting::$setting);)+
+        $(
+            #[cfg_attr(not(feature = "video"), allow(dead_code, reason = "some settings are of videos alone"))]
+            pub(crate) const $mark: Mark = Mark(Setting::$setting);
+        )+
     };
 }
 
