@@ -41,6 +41,8 @@ impl Checked {
             }
             Content::Directions(map) => self.each_file(observer, |output| formula::directions(output, map))?,
         }
+        // What a decoder says at the end of its video must be known before outputs appear.
+        self.job.layers().filter_map(|layer| layer.files.videos()).try_for_each(Videos::end)?;
         let finished = self.stages.alone(Stage::Encode, || videos.finish())?;
         self.tell(observer, finished.into_iter().chain(damaged_frames(&self.job)).collect());
         let Self { job, settings, stages, diagnostics, start, content, .. } = self;

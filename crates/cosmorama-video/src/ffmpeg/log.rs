@@ -86,14 +86,16 @@ const HARMLESS: [&str; 3] = ["co located POCs unavailable", "mmco: unref short f
 
 /// Returns the event that a line tells; `None` for other messages.
 fn event(line: &str) -> Option<Event> {
+    // First, since names of files are part of it, and may look like anything.
+    if line.contains("corrupt decoded frame") {
+        return Some(Event::Corrupt);
+    }
     if let Some((_, rest)) = line.split_once("frame:")
+        && rest.starts_with(|c: char| c.is_ascii_digit())
         && let Some((_, rest)) = rest.split_once("pts:")
     {
         let time = rest.split_whitespace().next().and_then(|ticks| ticks.parse().ok());
         return Some(Event::Frame(time));
-    }
-    if line.contains("corrupt decoded frame") {
-        return Some(Event::Corrupt);
     }
     let is_error = ["[error] ", "[fatal] ", "[panic] "].iter().any(|level| line.contains(level));
     let is_harmless = HARMLESS.iter().any(|words| line.contains(words));

@@ -11,7 +11,7 @@ use crate::{Ffmpeg, VideoError};
 pub(super) struct Expected {
     pub(super) frames: u64,
     pub(super) size: (usize, usize),
-    pub(super) sounds: usize,
+    pub(super) sounds: Option<usize>,
     /// Whether it must say that it is spherical.
     pub(super) is_spherical: bool,
 }
@@ -42,8 +42,8 @@ impl Expected {
             return Err(not(found, format!("those given are of {width}x{height}")));
         }
         let sounds = streams.iter().filter(|stream| stream["codec_type"] == "audio").count();
-        if sounds != self.sounds {
-            return Err(not(format!("{sounds} streams of sound"), format!("there should be {}", self.sounds)));
+        if let Some(expected) = self.sounds.filter(|expected| *expected != sounds) {
+            return Err(not(format!("{sounds} streams of sound"), format!("there should be {expected}")));
         }
         let mut sides = video["side_data_list"].as_array().into_iter().flatten();
         let is_spherical = sides.any(|data| data["side_data_type"] == "Spherical Mapping");

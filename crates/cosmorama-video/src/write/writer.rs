@@ -65,6 +65,7 @@ impl VideoWriter {
         let log = Log::of(child.stderr());
         let stdin = child.stdin().ok_or_else(|| failed(io::ErrorKind::BrokenPipe.into()))?;
         let format = RawFormat { depth: settings.depth, has_alpha: settings.has_alpha, coding: parts.coding() };
+        check_block(path, &settings, format)?;
         let encoder = encoder.name;
         let frames = Some(BufWriter::with_capacity(1 << 16, stdin));
         let mut writer = Self {
@@ -149,7 +150,8 @@ impl VideoWriter {
         let expected = Expected {
             frames: self.count,
             size: self.settings.size,
-            sounds: self.plan.sounds,
+            // Arguments of the user's own may leave sound out.
+            sounds: self.settings.arguments.is_empty().then_some(self.plan.sounds),
             is_spherical: self.settings.spatial.is_some_and(|tags| tags.projection.is_some()),
         };
         expected.verify(&self.ffmpeg, self.pending.path(), &self.path)?;
@@ -168,11 +170,15 @@ impl VideoWriter {
         let Some(source) = self.settings.source.as_ref().filter(|_| self.plan.fields && self.plan.sounds > 0) else {
             return Ok(());
         };
-        let fields = sound_fields(&source.info.path)?;
-        if fields.iter().any(Option::is_some) {
-            write_sound_fields(written, &fields)?;
+        match sound_fields(&source.info.path) {
+            Ok(fields) if fields.iter().any(Option::is_some) => write_sound_fields(written, &fields),
+            Ok(_) => Ok(()),
+            // For a tag, a finished video is not thrown away.
+            Err(error) => {
+                self.plan.notes.push(format!("tags of spatial sound do not go along: {error}"));
+                Ok(())
+            }
         }
-        Ok(())
     }
 
     fn time(&self, time: Option<i64>) -> Result<i64, VideoError> {
@@ -245,6 +251,25 @@ fn check(path: &Path, settings: &WriteSettings) -> Result<(), VideoError> {
         return Err(cannot("the tag of a mesh".to_owned(), "an equirectangular projection or a cube"));
     }
     Ok(())
+}
+
+/// Refuses frames that are longer than ffmpeg reads from the stream in which it gets them.
+fn check_block(path: &Path, settings: &WriteSettings, format: RawFormat) -> Result<(), VideoError> {
+    /// Bytes of a block, with its header, in ffmpeg's reader of Matroska.
+    const LONGEST_BLOCK: usize = (1 << 28) - 16;
+    let (width, height) = settings.size;
+    let samples = width.saturating_mul(height).saturating_mul(format.channels().count());
+    let bytes = samples.saturating_mul(if format.is_deep() { 2 } else { 1 });
+    if bytes <= LONGEST_BLOCK {
+        return Ok(());
+    }
+    Err(VideoError::CannotHold {
+        path: path.to_owned(),
+        found: format!("frames of {width}x{height} pixels with {bytes} bytes"),
+        expected: format!(
+            "at most {LONGEST_BLOCK} bytes, as of 9459x9459 pixels of 8 bits or 6688x6688 of more; write frames as files"
+        ),
+    })
 }
 
 fn failed(source: io::Error) -> VideoError {

@@ -64,6 +64,10 @@ impl Videos {
         Err(refusal(video))
     }
 
+    pub(crate) fn end(&self) -> std::result::Result<(), IoError> {
+        Ok(())
+    }
+
     pub(crate) fn complaints(&self) -> Vec<String> {
         Vec::new()
     }

@@ -14,7 +14,7 @@ use cosmorama_video::{
     WriteSettings,
 };
 
-use super::raw::{RawWriter, foreign};
+use super::raw::{RawWriter, aside, foreign};
 use super::{DamagedFrames, RawKind, VideoPlan, Videos, described};
 use crate::diagnostic::{Code, Diagnostic, FPS, FRAMES, Result, VIDEO_CODEC, usage, usage_as};
 
@@ -94,12 +94,13 @@ impl MadeVideos {
                 continue;
             }
             let ffmpeg = Ffmpeg::find().map_err(foreign)?;
+            let colour = ColourTags::of(&plan.primaries, &plan.transfer);
             let settings = WriteSettings {
                 times,
                 depth: plan.depth,
                 has_alpha: plan.channels.has_alpha(),
-                colour: ColourTags::of(&plan.primaries, &plan.transfer),
-                hdr: source.map(|(info, _)| info.hdr).unwrap_or_default(),
+                colour,
+                hdr: source.map(|(info, _)| info.hdr).filter(|_| colour.is_hdr()).unwrap_or_default(),
                 spatial: described::tags(plan.to.as_ref()),
                 codec: codec(plan)?,
                 arguments: plan.settings.arguments.clone(),
@@ -186,7 +187,7 @@ impl MadeVideo {
 impl Encoder {
     fn write(&mut self, path: &Path, image: &EncodedImage, time: Option<i64>) -> Result<(), VideoError> {
         match self {
-            Self::Film(writer) => writer.write(image, time),
+            Self::Film(writer) => aside(|| writer.write(image, time), &path.display().to_string()),
             Self::Raw(writer) => writer.write(image, &path.display().to_string()),
         }
     }

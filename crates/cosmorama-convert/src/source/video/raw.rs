@@ -57,7 +57,7 @@ pub(super) fn foreign(error: VideoError) -> IoError {
 
 /// Does work on a thread of its own. A thread of a pool that waits for others in the midst of this work might be given another
 /// frame to work on, which would wait for this one.
-fn aside<T: Send>(work: impl FnOnce() -> Result<T, VideoError> + Send, name: &str) -> Result<T, VideoError> {
+pub(super) fn aside<T: Send>(work: impl FnOnce() -> Result<T, VideoError> + Send, name: &str) -> Result<T, VideoError> {
     let ended = std::thread::scope(|scope| scope.spawn(work).join());
     ended.unwrap_or_else(|_| {
         let reason = "its decoder failed; make it again".to_owned();

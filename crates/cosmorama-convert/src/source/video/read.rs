@@ -12,7 +12,7 @@ use cosmorama_video::{
 };
 use thiserror::Error;
 
-use super::raw::{RawInfo, RawReader, foreign};
+use super::raw::{RawInfo, RawReader, aside, foreign};
 use super::{DamagedFrames, FrameName, RawFiles, RawKind, described};
 
 /// Videos among the inputs of a conversion. Each is opened when it is first asked for.
@@ -65,6 +65,8 @@ struct State {
     early: BTreeMap<u64, EncodedImage>,
     /// Frames that the decoder left out.
     left_out: BTreeSet<u64>,
+    /// Whether there are more frames than are announced.
+    has_more: bool,
     /// Error after which there are no more frames.
     failure: Option<Shared>,
     /// Faults of frames that are left out, or in place of which others are shown: the first of each, with their number and the reason.
@@ -138,6 +140,14 @@ impl Videos {
         state.wanted.extend(frames);
         state.is_expected = true;
         Ok(())
+    }
+
+    /// Reads videos to their ends if all of their frames have been read.
+    ///
+    /// # Errors
+    /// When a decoder says at its end that something was damaged.
+    pub(crate) fn end(&self) -> Result<(), IoError> {
+        self.sources().values().try_for_each(|source| source.end()).map_err(foreign)
     }
 
     /// Returns messages about frames that were damaged, and about frames that were not announced; an item for each video.
@@ -244,7 +254,7 @@ impl Source {
                 return if self.damaged == Damaged::Skip { Ok(None) } else { Err(self.without(number)) };
             };
             *next = index + 1;
-            state.left_out.extend(first..index);
+            state.left_out.extend(first..index.min(self.count));
             if index == number {
                 if state.is_expected && state.wanted.is_empty() && number + 1 < self.count {
                     state.close();
@@ -286,13 +296,21 @@ impl Source {
         VideoError::NoSuchFrame { path: self.name.clone(), asked, last }
     }
 
+    /// Reads to the end of the video if all frames have been read, so that what its decoder says last is heard.
+    fn end(&self) -> Result<(), VideoError> {
+        let mut state = self.state();
+        if let Some((reader, next)) = &mut state.reader
+            && *next == self.count
+        {
+            state.has_more = reader.next(&self.name, self.count)?.is_some();
+        }
+        Ok(())
+    }
+
     fn complaint(&self) -> Option<String> {
         let mut state = self.state();
         let path = self.name.display();
-        if let Some((reader, next)) = &mut state.reader
-            && *next == self.count
-            && reader.next(&self.name, *next).is_ok_and(|frame| frame.is_some())
-        {
+        if state.has_more {
             return Some(format!(
                 "{path}: there are more frames than the {} that it announces; they are left out, so write it again by a program that \
                  counts them",
@@ -302,7 +320,11 @@ impl Source {
         state.close();
         let (first, (_, reason)) = state.faults.first_key_value()?;
         let count: u64 = state.faults.values().map(|(count, _)| count).sum();
-        let instead = if self.damaged == Damaged::Skip { "left out" } else { "replaced by the one before" };
+        let instead = if self.damaged == Damaged::Skip {
+            "left out, so that what follows comes earlier than its sound"
+        } else {
+            "replaced by the one before"
+        };
         Some(format!(
             "{path}: {count} {} damaged or missing, and {instead}; the first is frame {first} ({reason})",
             if count == 1 { "frame is" } else { "frames are" }
@@ -314,7 +336,10 @@ impl Decoder {
     /// Returns the next frame with its number; `None` after the last. The number of a stream's is counted.
     fn next(&mut self, name: &Path, number: u64) -> Result<Option<(u64, EncodedImage)>, VideoError> {
         Ok(match self {
-            Self::Film(reader) => reader.next_frame()?.map(|frame| (frame.index, frame.image)),
+            Self::Film(reader) => {
+                let frame = aside(|| reader.next_frame(), &name.display().to_string())?;
+                frame.map(|frame| (frame.index, frame.image))
+            }
             Self::Raw(reader) => reader.next_picture(&name.display().to_string())?.map(|image| (number, image)),
         })
     }
