@@ -19,8 +19,9 @@ pub(crate) fn draw(folder: &Path, name: &str, drawing: &str, unfinished: &Unfini
     let mut pending = Pending::create(&vector, unfinished)?;
     let written = pending.writer().write_all(drawing.as_bytes());
     written.with_context(|| format!("cannot write {}", vector.display()))?;
+    let vector = pending.close()?;
     let raster = pixels::draw(folder, name, drawing, unfinished)?;
-    Ok([pending.close()?].into_iter().chain(raster).collect())
+    Ok([vector].into_iter().chain(raster).collect())
 }
 
 /// Writes a drawing as [`draw`] does, and returns the files' names.

@@ -320,7 +320,7 @@ impl MemoryBudget {
 }
 
 /// Memory of the program without pictures, with its tables.
-const PROGRAM: u64 = 18 << 20;
+const PROGRAM: u64 = 20 << 20;
 
 /// Memory of a thread beside the pictures that it works on: blocks of files, and the allocator's reserve.
 const THREAD: u64 = 4 << 20;

@@ -291,7 +291,7 @@ mod tests {
         };
         let (code, message) = told(Some(25 << 28), 10).unwrap();
         assert_eq!(code, Code::DiskSpace);
-        let words = ["10 frames need about 10.0 GiB", "only 6.3 GiB are free", "dome_1.png", "room for about 6"];
+        let words = ["10 frames need about 10.0 GiB", "only 6.2 GiB are free", "dome_1.png", "room for about 6"];
         words.into_iter().for_each(|words| assert!(message.contains(words), "{message}"));
         assert_eq!(told(Some(10 << 30), 10), None);
         assert_eq!(told(None, 10), None, "nobody knows");

@@ -12,4 +12,9 @@ impl Place {
     pub(crate) fn whole(size: (usize, usize)) -> Self {
         Self { corner: (0, 0), of: size }
     }
+
+    /// Returns whether this is all of a picture of that size.
+    pub(crate) fn is_whole(self, size: (usize, usize)) -> bool {
+        self == Self::whole(size)
+    }
 }

@@ -21,7 +21,7 @@ pub(super) use manual::man;
 pub(super) fn help(args: &HelpArgs, console: &Console) -> Result<ExitCode> {
     let mut command = built();
     let text = match (args.topic.as_deref(), args.projection.as_deref()) {
-        (None, _) => command.render_help().to_string(),
+        (None, _) => command.render_long_help().to_string(),
         (Some(SPEC_TOPIC), None) => cosmorama_spec::help(),
         (Some(SPEC_TOPIC), Some(spec)) => match SpecKind::of(spec) {
             Some(kind) => topics::of_projection(kind),

@@ -107,7 +107,7 @@ fn every_kernel_and_source_goes_with_it() {
 fn memory_for_the_levels_is_asked_for_before_it_is_taken() {
     let bench = bench();
     let args = ["convert", "face_{face}.png", "out.png", "--to", "equirect", "--size", "64", "--filter", "ewa-pyramid"];
-    let output = bench.run(&[&args[..], &["--memory", "10M"]].concat());
+    let output = bench.run(&[&args[..], &["--memory", "8M"]].concat());
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(
         output.status.code() == Some(1) && said.contains("what is prepared of the input") && said.contains("--memory"),

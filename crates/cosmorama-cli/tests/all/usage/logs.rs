@@ -33,7 +33,7 @@ fn decisions_are_told_with_their_reasons() {
         "colour: sky.png: PNG, 64x32, RGB of 8, srgb as it says, Rec. 709",
         "colour: dome.png: RGB of 8, srgb, Rec. 709, as the first input",
         "filter: ewa, kernel adaptive, anti-ringing on, in integers, because inputs and outputs are opaque and of 8 bits",
-        "memory: 476.8 MiB may be used, as --memory says",
+        "memory: 500.0 MiB may be used, as --memory says",
         "2 threads, as --threads says",
         "frames: 1 frame to make",
         "geometry: computed with the picture, and not kept, because it is the only one",

@@ -115,6 +115,12 @@ fn steady(line: &str) -> String {
     if let Some((key, _)) = line.split_once(": ").filter(|(key, _)| UNSTEADY.contains(&key.trim().trim_matches('"'))) {
         return format!("{key}: TIME");
     }
+    // What the machine has is none of the program's words.
+    for begin in ["memory: ", "frames: "] {
+        if line.starts_with(begin) && (line.contains("may be used") || line.contains("are free")) {
+            return format!("{begin}MACHINE");
+        }
+    }
     let words: Vec<&str> = line.split(' ').collect();
     let is_time = |at: usize| {
         let unit = words.get(at + 1).map(|word| word.trim_end_matches(|mark: char| !mark.is_alphabetic()));

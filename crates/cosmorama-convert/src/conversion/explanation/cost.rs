@@ -10,7 +10,6 @@ use cosmorama_io::Format;
 use super::Explanation;
 use crate::input::{Input, InputView};
 use crate::job::{FrameNeeds, Held, compressed, program_bytes};
-use crate::packing::Place;
 use crate::source::memory_budget::{area, read_bytes};
 use crate::target::Picture;
 
@@ -101,7 +100,7 @@ impl Explanation {
         let held = files.held(input);
         let size = |picture: &Picture| (picture.view.width(), picture.view.height());
         let pixels = self.pictures().iter().map(|picture| area(size(picture))).fold(0, u64::saturating_add);
-        let is_part = |picture: &&Picture| picture.place.is_some_and(|place| place != Place::whole(size(picture)));
+        let is_part = |picture: &&Picture| picture.place.is_some_and(|place| !place.is_whole(size(picture)));
         let largest = self.pictures().iter().filter(is_part).map(|picture| area(size(picture))).max().unwrap_or(0);
         let prepared = reports.iter().map(|report| report.memory.levels as u64).max().unwrap_or(0);
         let needs = FrameNeeds::of_pictures(input, worlds, (pixels, largest), held).with_prepared(prepared);
