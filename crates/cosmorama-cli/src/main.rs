@@ -1,7 +1,7 @@
 //! The `cosmorama` program.
 //!
 //! Arguments are parsed and become settings of `cosmorama-convert` ([`args`]). Each verb runs ([`verbs`]) and prints
-//! its messages ([`console`]).
+//! its messages ([`mod@console`]).
 
 mod args;
 mod console;
