@@ -58,7 +58,7 @@ pub use header::{Choice, Format, Header, ImageFile, LayeredImage, Plane, PlaneSa
 pub use limits::Limits;
 pub use metadata::{
     Attribute, Carried, EnvMap, Exif, FilePart, Kept, Layers, Metadata, MetadataRoom, NamedChannel, Pose, ProfileFault,
-    Remark, SampleKind, TextChunk, Window,
+    Remark, SampleKind, TextChunk, Window, transfer_of_number,
 };
 pub use pto::{PtoError, PtoImage, PtoPanorama, PtoProject};
 pub use sequence::{CameraPath, CameraPathError, FoundFrames, FrameList, FramePattern, Frames, PathPose, PathSource};

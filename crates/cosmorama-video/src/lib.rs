@@ -17,9 +17,7 @@ mod spatial;
 mod stream;
 mod write;
 
-pub use colour::{
-    ChromaPlace, ColourTags, ContentLight, HdrTags, MasteringDisplay, SignalRange, transfer_number, transfer_of_number,
-};
+pub use colour::{ChromaPlace, ColourTags, ContentLight, HdrTags, MasteringDisplay, SignalRange, transfer_number};
 pub use error::VideoError;
 pub use ffmpeg::{Ffmpeg, Version};
 pub use probe::{Announced, AnnouncedBy, CutShort, OtherStream, StreamKind, Timeline, Turn, VideoInfo};

@@ -1,6 +1,7 @@
 mod carried;
 mod colour_name;
 pub(crate) mod gpano;
+mod h273;
 pub(crate) mod icc;
 pub(crate) mod khronos;
 mod layers;
@@ -10,6 +11,7 @@ pub use carried::{Attribute, Carried, Exif, Kept, MetadataRoom, TextChunk};
 pub(crate) use carried::{LARGEST_ATTRIBUTE, LARGEST_EXIF, XMP, iptc, is_read, of_stored, stored};
 pub(crate) use colour_name::{ADOBE_GAMMA, colour_name};
 pub use gpano::Pose;
+pub use h273::transfer_of_number;
 pub use layers::{FilePart, Layers, NamedChannel, SampleKind};
 
 use std::borrow::Cow;

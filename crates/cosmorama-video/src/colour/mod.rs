@@ -6,10 +6,11 @@ mod numbers;
 mod yuv;
 
 use cosmorama::raster::{Primaries, Transfer};
+use cosmorama_io::transfer_of_number;
 
 pub use hdr::{ContentLight, HdrTags, MasteringDisplay};
 pub(crate) use numbers::Axis;
-pub use numbers::{transfer_number, transfer_of_number};
+pub use numbers::transfer_number;
 pub(crate) use yuv::Coding;
 
 /// Colour tags of a video stream; `None` where it says nothing.

@@ -7,7 +7,7 @@ use png::chunk::ChunkType;
 use png::{CodingIndependentCodePoints, ColorType, Info, ScaledFloat, SourceChromaticities, SrgbRenderingIntent};
 
 use super::carried::Found;
-use crate::metadata::{colour_name, gpano, icc, orientation};
+use crate::metadata::{colour_name, gpano, icc, orientation, transfer_of_number};
 use crate::{Exif, Metadata, TextChunk};
 
 pub(super) const CICP: ChunkType = ChunkType(*b"cICP");
@@ -118,7 +118,7 @@ fn cicp(info: &Info<'_>) -> Option<Result<Coded, String>> {
     if (cicp.color_primaries, cicp.transfer_function) == (UNSPECIFIED, UNSPECIFIED) {
         return None;
     }
-    let transfer = from_code_points(cicp.transfer_function);
+    let transfer = transfer_of_number(cicp.transfer_function);
     if transfer.is_none() && cicp.transfer_function != UNSPECIFIED {
         return ignored("the transfer function", cicp.transfer_function, "1, 4 to 6, 8, 13 to 16 or 18 of ITU-T H.273");
     }
@@ -135,20 +135,6 @@ impl Metadata {
                 .push("its code values are of narrow range, as in video; they are read as of full range".to_owned());
         }
         self
-    }
-}
-
-/// Returns the transfer function of a code point of ITU-T H.273.
-fn from_code_points(code: u8) -> Option<Transfer> {
-    match code {
-        1 | 6 | 14 | 15 => Some(Transfer::Bt1886),
-        4 => Some(Transfer::Gamma(2.2)),
-        5 => Some(Transfer::Gamma(2.8)),
-        8 => Some(Transfer::Linear),
-        13 => Some(Transfer::Srgb),
-        16 => Some(Transfer::Pq),
-        18 => Some(Transfer::Hlg),
-        _ => None,
     }
 }
 
