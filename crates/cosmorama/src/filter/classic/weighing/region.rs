@@ -86,9 +86,14 @@ impl<'a> Seen<'a> {
         SQUARE.map(|at| self.place + jacobian * at * half)
     }
 
+    /// Returns the place of a point of the screen, in pixels from the middle.
+    fn pixel_at(&self, at: DVec2) -> Option<PixelPoint> {
+        self.source.view.pixel(self.footprint.direction_at(at.x, at.y)?)
+    }
+
     /// Returns the place of a point of the screen, in pixels from the middle; in a panorama, the nearest of all turns.
     fn mapped(&self, at: DVec2) -> Option<DVec2> {
-        let there = self.source.view.pixel(self.footprint.direction_at(at.x, at.y)?)?;
+        let there = self.pixel_at(at)?;
         let turns = |period: usize| ((self.place.x - there.x) / period as f64).round() * period as f64;
         Some(DVec2::new(there.x + self.source.period.map_or(0.0, turns), there.y))
     }
@@ -145,14 +150,21 @@ impl<'a> Seen<'a> {
 
     /// Returns whether the view shows one of a grid of directions around the middle, that far to each side.
     fn shows_some(&self, farthest: DVec2) -> bool {
-        /// Directions along a side.
-        const SIDE: usize = 9;
-        let at = |k: usize| 2.0 * k as f64 / (SIDE - 1) as f64 - 1.0;
-        let mut places = (0..SIDE * SIDE).map(|k| DVec2::new(at(k % SIDE), at(k / SIDE)) * farthest);
-        places.any(|at| {
-            let there = self.footprint.direction_at(at.x, at.y);
-            there.and_then(|there| self.source.view.pixel(there)).is_some_and(|pixel| self.source.shows(pixel))
-        })
+        let shown = |at| self.pixel_at(at).is_some_and(|pixel| self.source.shows(pixel));
+        !self.lies_beyond(farthest) && around::<9>(farthest).any(shown)
+    }
+
+    /// Returns whether nine directions around the middle, that far to each side, lie farther beyond one edge of the image than
+    /// from each other: then none between them is in it, and there is nothing to search. Not known of a picture that repeats.
+    fn lies_beyond(&self, farthest: DVec2) -> bool {
+        let grown = |(least, most): (DVec2, DVec2), at| {
+            self.pixel_at(at).map(|PixelPoint { x, y }| (least.min(DVec2::new(x, y)), most.max(DVec2::new(x, y))))
+        };
+        let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+        let Some((least, most)) = around::<3>(farthest).try_fold(none, grown) else { return false };
+        let size = DVec2::new(self.source.view.width() as f64, self.source.view.height() as f64);
+        let beyond = (least - size).max(-most);
+        self.source.period.is_none() && beyond.cmpgt(most - least).any()
     }
 
     /// Returns the test of which texels count. Where the middle lies beyond a view's edge, derivatives place some near that are
@@ -178,6 +190,12 @@ impl<'a> Seen<'a> {
     pub(in crate::filter::classic) fn centre([i, j]: [i64; 2]) -> PixelPoint {
         PixelPoint::new(i as f64 + 0.5, j as f64 + 0.5)
     }
+}
+
+/// Returns a grid of offsets, so many along a side, from one corner to the opposite.
+fn around<const SIDE: usize>(farthest: DVec2) -> impl Iterator<Item = DVec2> {
+    let at = |k: usize| 2.0 * k as f64 / (SIDE - 1) as f64 - 1.0;
+    (0..SIDE * SIDE).map(move |k| DVec2::new(at(k % SIDE), at(k / SIDE)) * farthest)
 }
 
 /// A rule that weighs the texels of a world under a footprint.
@@ -280,12 +298,39 @@ pub(in crate::filter::classic) fn reached<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::camera::CameraModel;
-    use crate::sphere::Direction;
+    use crate::camera::{CameraModel, CubeFaceCamera, Placement};
+    use crate::sphere::{CubeFace, Direction};
 
     fn world() -> World {
         let view = CameraModel::Equirect(Default::default()).view(64, 32).expect("a panorama");
         World::new([("all".to_owned(), view)]).expect("one view")
+    }
+
+    /// Few directions tell when a picture is out of reach: never where many find something, and most of the times else.
+    #[test]
+    fn what_lies_beyond_is_not_shown() {
+        let face = |face: CubeFace| {
+            let placed =
+                Placement { orientation: face.orientation(), ..Placement::new(CameraModel::CubeFace(CubeFaceCamera)) };
+            (face.name().to_owned(), placed.view(32, 32).expect("a face"))
+        };
+        let world = World::new(CubeFace::ALL.map(face)).expect("six faces");
+        let (mut out_of_reach, mut searched) = (0, 0);
+        for k in 0..2000 {
+            let [x, y, z, size] = [0.73, 0.31, 0.57, 0.11].map(|step: f64| (step * f64::from(k)).fract() * 2.0 - 1.0);
+            let Some(direction) = Direction::new(DVec3::new(x, y, z)) else { continue };
+            let (right, up) = direction.vector().any_orthonormal_pair();
+            let footprint = Footprint::new(direction, right * 0.2 * size, up * 0.05 + right * 0.1 * size);
+            for source in world.sources() {
+                let Some(seen) = Seen::new(source, &footprint).filter(|seen| !seen.is_inside()) else { continue };
+                let farthest = seen.farthest(2.0);
+                let shown = around::<33>(farthest).any(|at| seen.pixel_at(at).is_some_and(|pixel| source.shows(pixel)));
+                assert!(!(shown && seen.lies_beyond(farthest)), "{footprint:?}");
+                out_of_reach += usize::from(seen.lies_beyond(farthest));
+                searched += usize::from(!shown);
+            }
+        }
+        assert!(out_of_reach * 10 > searched * 8, "{out_of_reach} of {searched}");
     }
 
     #[test]
