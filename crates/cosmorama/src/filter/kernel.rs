@@ -133,8 +133,8 @@ pub struct Kernel {
     pub floor: f64,
     /// Whether the weights are corrected so that their centroid is exactly the pixel's centre.
     pub centred: bool,
-    /// Number of entries of the table over r² that holds the weights, from 1 to [`Kernel::MOST_ENTRIES`]; between two entries they are interpolated. Cubics are
-    /// computed instead where that is faster.
+    /// Number of entries of the table over r² that holds the weights, from 1 to [`Kernel::MOST_ENTRIES`]; between two
+    /// entries they are interpolated. Cubics and wide Gaussians are computed instead where that is faster.
     pub entries: usize,
 }
 

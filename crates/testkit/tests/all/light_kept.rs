@@ -1,7 +1,10 @@
 //! What skies with a sun keep of their light in another form, at as many pixels.
 
-use cosmorama::filter::FilterSettings;
-use cosmorama::raster::{Rgba, Transfer};
+use cosmorama::camera::{CameraModel, CubeFaceCamera, Placement, View};
+use cosmorama::filter::{Ewa, FilterSettings};
+use cosmorama::raster::{Image, Rgba, Transfer};
+use cosmorama::render::{Resampler, picture};
+use cosmorama::sphere::CubeFace;
 use cosmorama::world::World;
 use cosmorama_io::{Limits, read};
 use testkit::{Form, HARD_PLACES, LIGHT, Sky, equirect, equirect_density, shared, sun};
@@ -71,5 +74,47 @@ fn daylight_keeps_its_light() {
         let light = sun(&world, [0.4, 0.7, -0.3], 0.17);
         let gain = Sky::new(&world, form(to), FilterSettings::DEFAULT).gain(&world, &light);
         assert!(gain.abs() < 0.002, "{from} to {to}: {gain}");
+    }
+}
+
+fn face(face: CubeFace, edge: usize) -> View {
+    let camera = CameraModel::from(CubeFaceCamera);
+    let placement = Placement { orientation: face.orientation(), ..Placement::new(camera) };
+    placement.view(edge, edge).expect("a face")
+}
+
+/// Returns the faces of a cube, made fast, and made pixel by pixel from lists of texels.
+fn faces_both_ways(world: &World, texels: &[Rgba], edge: usize) -> [Vec<Image<Rgba>>; 2] {
+    let singly = Ewa { kernel: LIGHT.kernel, anti_ringing: false }.of_texels(world, texels);
+    let views = CubeFace::ALL.map(|side| face(side, edge));
+    [
+        views.iter().map(|target| Resampler { world, target, filter: LIGHT }.render(texels)).collect(),
+        views.iter().map(|target| picture(&*singly, target)).collect(),
+    ]
+}
+
+fn texels(world: &World, light: impl Fn(usize) -> f32) -> Vec<Rgba> {
+    (0..world.texel_count()).map(light).map(|light| Rgba::opaque(light, light, light)).collect()
+}
+
+/// Faces of a panorama with eight texels in a pixel: a sun of one texel, at the pole, beside it and away from it, and on the seam
+/// behind, has the shape that lists of texels give it, and its energy.
+#[test]
+fn mirror_levels_are_what_lists_of_texels_make() {
+    let world = World::new([("panorama".to_owned(), equirect(512))]).expect("one view");
+    let [fast, slow] = faces_both_ways(&world, &texels(&world, |_| 0.7), 64);
+    let constant = fast.iter().chain(&slow).flat_map(|face| face.pixels());
+    assert!(constant.clone().all(|pixel| (pixel.0[0] - 0.7).abs() < 1e-6 && (pixel.alpha() - 1.0).abs() < 1e-6));
+    for sun in [0, 3 * 512 + 17, 12 * 512 + 255, 30 * 512 + 511, 60 * 512 + 140, 128 * 512 + 256, 250 * 512] {
+        let [fast, slow] = faces_both_ways(&world, &texels(&world, |at| if at == sun { 250_000.0 } else { 0.18 }), 64);
+        let pairs = || fast.iter().zip(&slow).flat_map(|(fast, slow)| fast.pixels().iter().zip(slow.pixels()));
+        let peak = pairs().map(|(_, slow)| slow.0[0]).fold(0.0, f32::max);
+        let worst = pairs().map(|(fast, slow)| (fast.0[0] - slow.0[0]).abs()).fold(0.0, f32::max);
+        assert!(worst < 1e-3 * peak, "a sun in texel {sun}: {worst} of {peak}");
+        let sum = |faces: &[Image<Rgba>]| -> f64 {
+            faces.iter().flat_map(|face| face.pixels()).map(|pixel| f64::from(pixel.0[0] - 0.18)).sum()
+        };
+        let gain = sum(&fast) / sum(&slow) - 1.0;
+        assert!(gain.abs() < 1e-4, "a sun in texel {sun}: energy differs by {gain}");
     }
 }

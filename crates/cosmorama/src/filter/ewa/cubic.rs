@@ -1,6 +1,6 @@
 use fearless_simd::{Simd, prelude::*};
 
-use super::lanes::Lanes;
+use super::lanes::{Falloff, Lanes};
 use crate::filter::{CrossSection, Kernel};
 
 /// Polynomials for a kernel's two cross-sections, which SIMD lanes evaluate without a table. Both cross-sections must
@@ -51,15 +51,15 @@ fn coefficients(section: CrossSection) -> Option<Coefficients> {
 /// A cubic in each lane.
 pub(crate) struct Curve<V>([V; 5]);
 
-impl<V> Curve<V> {
-    /// Returns the weights at squared distances `q`; they are zero from q = 4 on.
+impl<V> Falloff<V> for Curve<V> {
     #[inline(always)]
-    pub(crate) fn weight<S: Simd>(&self, q: V) -> V
+    fn weight<S: Simd>(&self, q: V) -> V
     where
         V: Lanes<S>,
     {
         let [inner3, inner2, inner0, outer3, outer2] = self.0;
         let (zero, r) = (V::splat(q.token(), 0.0), q.sqrt());
+        // Zero from r = 2 on.
         let x = (zero + 2.0 - r).max(zero);
         let (inner, outer) = ((inner3 * r + inner2) * q + inner0, x * x * (outer3 * x + outer2));
         r.simd_lt(zero + 1.0).select(inner, outer)

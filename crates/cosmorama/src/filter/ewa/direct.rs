@@ -5,6 +5,7 @@ use glam::DVec2;
 
 use super::blocks::{Blocks, LANES, LaneKernel, Weighed, count_up};
 use super::cubic::Cubics;
+use super::lanes::Falloff;
 use super::pinhole::Pinholes;
 use super::rows::{Conic, Lattice, Rows};
 use crate::camera::Footprint;

@@ -11,6 +11,14 @@ pub(crate) trait Lanes<S: Simd>: SimdFloat<S, Element = f32> {
     fn row(self, row: usize) -> f32x8<S>;
 }
 
+/// Weight of texels by squared distance, in lanes.
+pub(crate) trait Falloff<V> {
+    /// Returns the weights at squared distances `q`; they are zero from the kernel's edge on.
+    fn weight<S: Simd>(&self, q: V) -> V
+    where
+        V: Lanes<S>;
+}
+
 impl<S: Simd> Lanes<S> for f32x8<S> {
     const ROWS: usize = 1;
 

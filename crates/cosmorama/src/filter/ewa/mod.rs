@@ -3,6 +3,7 @@
 mod blocks;
 pub(crate) mod cubic;
 mod direct;
+pub(crate) mod gaussian;
 pub(crate) mod lanes;
 pub(crate) mod paper;
 mod pinhole;

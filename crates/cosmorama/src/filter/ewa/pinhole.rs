@@ -5,6 +5,7 @@ use fearless_simd::{Simd, f32x8, prelude::*};
 use glam::{DMat2, DMat3, DVec2, DVec3};
 
 use super::blocks::{Blocks, LANES, LaneKernel, Weighed, count_up};
+use super::lanes::Falloff;
 use super::prefetch::prefetch;
 use super::rows::{Conic, Lattice, Row, Rows};
 use crate::camera::{FieldStop, Footprint};

@@ -325,8 +325,8 @@ impl<'a> Gather<'a> {
             let row = j * source.view.width();
             source.view.row_directions(j, columns, |i, texel| {
                 let solid_angle = source.solid_angles[row + i];
-                let Some((q, offset)) = kernel.place(texel) else { return };
-                if q < self.table.radius_squared() && solid_angle > 0.0 {
+                let Some((q, offset)) = kernel.place(texel, self.table.radius_squared()) else { return };
+                if solid_angle > 0.0 {
                     let texel = source.offset + row + i;
                     self.scratch.candidates.push(Candidate::weighed(
                         self.table,

@@ -15,12 +15,9 @@ pub(crate) const RIM_FLOOR: f64 = 1.7;
 /// a rim, where an ellipse of texels would be wrong, it weighs each texel by its direction.
 pub(crate) struct TangentKernel {
     direction: Direction,
-    /// Two axes of the plane; their length is 1 over the view's largest texel.
-    axes: [DVec3; 2],
-    to_texels: DMat2,
-    /// Matrix from the plane to screen pixels.
-    to_screen: DMat2,
-    ellipse: Ellipse,
+    among_texels: AmongTexels,
+    /// Axes that tell offsets in screen pixels.
+    screen: [DVec3; 2],
     /// Share of the coarse cross-section.
     pub(crate) coarseness: f32,
     beyond: Option<BeyondSeam>,
@@ -33,10 +30,36 @@ pub(crate) struct TangentKernel {
 struct BeyondSeam {
     /// Step from the footprint to the corresponding place on the other side.
     across: DVec3,
-    ellipse: Ellipse,
-    to_texels: DMat2,
+    among_texels: AmongTexels,
     /// Nearness to the seam: one on it, falling to zero where the kernel ends.
     nearness: f64,
+}
+
+/// A kernel's ellipse among texels, which lie in the tangent plane.
+struct AmongTexels {
+    /// Axes that tell offsets in texels.
+    axes: [DVec3; 2],
+    ellipse: Ellipse,
+}
+
+impl AmongTexels {
+    /// Returns the square of a distance from the kernel's centre, in the kernel's unit.
+    #[inline]
+    fn distance_squared(&self, from_centre: DVec3) -> f64 {
+        self.ellipse.distance_squared(in_plane(&self.axes, from_centre))
+    }
+}
+
+/// Returns the offset that axes of the tangent plane tell.
+#[inline]
+fn in_plane(axes: &[DVec3; 2], from_centre: DVec3) -> DVec2 {
+    DVec2::new(axes[0].dot(from_centre), axes[1].dot(from_centre))
+}
+
+/// Returns axes that tell offsets after a linear map.
+fn mapped(map: DMat2, axes: &[DVec3; 2]) -> [DVec3; 2] {
+    let [x, y] = [map.row(0), map.row(1)];
+    [axes[0] * x.x + axes[1] * x.y, axes[0] * y.x + axes[1] * y.y]
 }
 
 impl TangentKernel {
@@ -50,9 +73,9 @@ impl TangentKernel {
     ) -> Self {
         let here = footprint.direction.vector();
         let (right, up) = here.any_orthonormal_pair();
+        // Their length is 1 over the view's largest texel.
         let axes = [right, up].map(|axis| axis / source.texel_pitch);
-        let in_plane = |vector: DVec3| DVec2::new(axes[0].dot(vector), axes[1].dot(vector));
-        let tangent = DMat2::from_cols(in_plane(footprint.jacobian.dx), in_plane(footprint.jacobian.dy));
+        let tangent = DMat2::from_cols(in_plane(&axes, footprint.jacobian.dx), in_plane(&axes, footprint.jacobian.dy));
         let to_screen = tangent.inverse();
         // Footprint in texels; where these are not defined, as on the very pole, in texels of the largest size.
         let jacobian = footprint_among_texels(source, footprint).unwrap_or(tangent);
@@ -69,12 +92,7 @@ impl TangentKernel {
         let nearness = beyond.map_or(0.0, |(across, _)| 1.0 - 0.5 * across.length() / radius);
         let widening = 1.0 + (RIM_FLOOR - 1.0) * nearness;
         let ellipse = |jacobian: DMat2| Ellipse::new(jacobian * kernel.scale, floor * widening);
-        let beyond = beyond.map(|(across, jacobian)| BeyondSeam {
-            across,
-            ellipse: ellipse(jacobian),
-            to_texels: jacobian * to_screen,
-            nearness,
-        });
+        let beyond = beyond.map(|(across, jacobian)| (across, ellipse(jacobian), jacobian * to_screen));
         let ellipse = ellipse(jacobian);
         let (major, minor) = ellipse.semi_axes_in(to_texels);
         let unit = kernel.radius() * source.texel_pitch;
@@ -84,28 +102,34 @@ impl TangentKernel {
                 let longer = 1.0 + around / major.length();
                 CapChain::around(footprint.direction, major * longer, minor * unit + around)
             }
-            Some(BeyondSeam { ellipse, to_texels, .. }) => {
+            Some((_, ellipse, to_texels)) => {
                 let other = ellipse.semi_axes_in(*to_texels).0.length();
                 CapChain::of(footprint.direction, major.length().max(other) * unit + around)
             }
         };
-        Self { direction: footprint.direction, axes, to_texels, to_screen, ellipse, coarseness, beyond, reach }
+        let among = |ellipse: Ellipse, to_texels: DMat2| AmongTexels { axes: mapped(to_texels, &axes), ellipse };
+        let beyond = beyond.map(|(across, ellipse, to_texels)| {
+            let among_texels = among(ellipse, to_texels);
+            BeyondSeam { across, among_texels, nearness }
+        });
+        let (among_texels, screen) = (among(ellipse, to_texels), mapped(to_screen, &axes));
+        Self { direction: footprint.direction, among_texels, screen, coarseness, beyond, reach }
     }
 
     /// Returns the square of a texel's distance from the centre, in the kernel's unit, and its offset in screen pixels.
-    /// `None` for a texel more than a right angle away.
-    pub(crate) fn place(&self, texel: Direction) -> Option<(f64, DVec2)> {
+    /// `None` for a texel more than a right angle away, or whose squared distance is not below `reach`.
+    #[inline]
+    pub(crate) fn place(&self, texel: Direction, reach: f64) -> Option<(f64, DVec2)> {
         let from = texel.vector() - self.direction.vector();
-        let offset = DVec2::new(self.axes[0].dot(from), self.axes[1].dot(from));
-        let here = self.ellipse.distance_squared(self.to_texels * offset);
-        let q = self.beyond.as_ref().map_or(here, |BeyondSeam { across, ellipse, to_texels, nearness }| {
-            let there = ellipse.distance_squared(*to_texels * offset);
+        let here = self.among_texels.distance_squared(from);
+        let q = self.beyond.as_ref().map_or(here, |BeyondSeam { across, among_texels, nearness }| {
+            let there = among_texels.distance_squared(from);
             let (own, other) = if across.dot(texel.vector()) > 0.0 { (there, here) } else { (here, there) };
             // On the seam itself, the ellipse of each side alone may reach along the seam one way only, and both the
             // same way.
             own.min(other / (nearness * nearness))
         });
-        (texel.dot(self.direction) > 0.0).then(|| (q, self.to_screen * offset))
+        (q < reach && texel.dot(self.direction) > 0.0).then(|| (q, in_plane(&self.screen, from)))
     }
 }
 

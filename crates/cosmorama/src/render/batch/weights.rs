@@ -9,7 +9,8 @@ use super::ellipses::Ellipses;
 use super::window::{Level, ROOM, Size, Windows};
 use crate::filter::Kernel;
 use crate::filter::ewa::cubic::Cubics;
-use crate::filter::ewa::lanes::Lanes;
+use crate::filter::ewa::gaussian::Gaussian;
+use crate::filter::ewa::lanes::{Falloff, Lanes};
 use crate::filter::kernel::UNDER;
 use crate::render::scan::patch::Patch;
 use crate::render::scan::tile::SIDE;
@@ -17,10 +18,23 @@ use crate::render::scan::tile::SIDE;
 /// Greatest number of rows of a patch that are weighed together.
 const ROWS: usize = 2;
 
+/// Cross-sections of a kernel that lanes can weigh by.
+#[derive(Clone, Copy)]
+enum Shape {
+    Cubics(Cubics),
+    Gaussian(Gaussian),
+}
+
+impl Shape {
+    fn of(kernel: &Kernel) -> Option<Self> {
+        Cubics::of(kernel).map(Self::Cubics).or_else(|| Gaussian::of(kernel).map(Self::Gaussian))
+    }
+}
+
 /// Weigher of texels by one kernel.
 pub(crate) struct Weigher {
     level: Level,
-    cubics: Cubics,
+    shape: Shape,
     kernel: Kernel,
     /// Windows that are weighed together.
     windows: [Windows; ROWS],
@@ -29,12 +43,12 @@ pub(crate) struct Weigher {
 }
 
 impl Weigher {
-    /// Makes the weigher of a kernel. `None` if a cross-section is not a cubic, which lanes cannot weigh. `None` also
-    /// if the floor is below one: there might be no texel under a pixel to clamp to.
+    /// Makes the weigher of a kernel. `None` unless its cross-sections are cubics or one wide Gaussian, which lanes can
+    /// weigh. `None` also if the floor is below one: there might be no texel under a pixel to clamp to.
     pub(crate) fn new(kernel: &Kernel, level: Level) -> Option<Self> {
-        let cubics = Cubics::of(kernel).filter(|_| kernel.floor >= 1.0)?;
+        let shape = Shape::of(kernel).filter(|_| kernel.floor >= 1.0)?;
         let windows = std::array::from_fn(|_| Windows::new(level));
-        Some(Self { level, cubics, kernel: *kernel, windows, loose: vec![0.0; 2 * ROWS * SIDE * ROOM] })
+        Some(Self { level, shape, kernel: *kernel, windows, loose: vec![0.0; 2 * ROWS * SIDE * ROOM] })
     }
 
     /// Returns the windows of a patch.
@@ -71,7 +85,10 @@ impl Weigher {
         }
         if any {
             self.make_room(size[0] * size[1]);
-            let moments = self.measure(simd, ellipses, size);
+            let moments = match self.shape {
+                Shape::Cubics(cubics) => self.measure(simd, ellipses, size, &cubics.blend(ellipses.coarseness)),
+                Shape::Gaussian(gaussian) => self.measure(simd, ellipses, size, &gaussian),
+            };
             let correction = moments.correction(simd, self.kernel.centred.then_some(&patch.bend));
             self.settle(simd, &ellipses.start, size, &correction);
         }
@@ -93,11 +110,11 @@ impl Weigher {
         simd: S,
         ellipses: &Ellipses<V>,
         [width, height]: [usize; 2],
+        curve: &impl Falloff<V>,
     ) -> Moments<V> {
         let [x0, mut y] = ellipses.start;
         let zero = V::splat(simd, 0.0);
         let inverse = ((self.kernel.radius() * self.kernel.radius()) as f32).recip();
-        let curve = self.cubics.blend(ellipses.coarseness);
         let reach = V::splat(simd, UNDER as f32);
         let mut moments = Moments::zero(simd);
         let mut loose = self.loose.chunks_exact_mut(2 * V::LEN);

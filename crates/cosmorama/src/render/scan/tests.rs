@@ -147,6 +147,18 @@ fn windows_of_one_cubic_that_is_not_centred_do_too() {
     }
 }
 
+/// Tests a Gaussian over a panorama and over faces, from few texels in a pixel to hundreds.
+#[test]
+fn windows_of_the_kernel_that_keeps_light_do_too() {
+    let face = |face: CubeFace, size| view(ProjectionKind::PERSPECTIVE, (size, size), (1.0, 1.0), face.orientation());
+    for (world, size, least) in [(sky(1024), 128, 0.75), (sky(1024), 512, 0.85), (cube(256), 128, 0.6)] {
+        for target in [CubeFace::Up, CubeFace::Front, CubeFace::Back].map(|at| face(at, size)) {
+            let share = check_windows(&world, &target, Kernel::LIGHT) as f64 / (size * size) as f64;
+            assert!(share > least, "{share} of {size}² pixels in windows");
+        }
+    }
+}
+
 /// Tests the poles of an equal-area map and the rim of a ball, where texels are measured from side to side. Away from
 /// there, patches hold.
 #[test]
