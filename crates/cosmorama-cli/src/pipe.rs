@@ -1,7 +1,8 @@
-//! Streams as files. Input is held in memory. Output is made in a temporary folder, and passed on when it is whole.
+//! Streams as files. Input is held in memory, or, if it is a stream of many pictures, in a temporary folder. Output is made in a temporary
+//! folder, and passed on when it is whole.
 
 use std::fs::File;
-use std::io::{ErrorKind, IsTerminal, Read, Write, copy, stdin, stdout};
+use std::io::{Cursor, ErrorKind, IsTerminal, Read, Write, copy, stdin, stdout};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -10,7 +11,7 @@ use std::time::Duration;
 use anyhow::{Context, Result, anyhow};
 use cosmorama_convert::{Files, InMemory, is_video};
 use cosmorama_io::Format;
-use cosmorama_io::pending::Scratch;
+use cosmorama_io::pending::{Scratch, Unfinished};
 
 use crate::args::ConvertArgs;
 use crate::console::{Console, say};
@@ -31,7 +32,14 @@ pub(crate) struct KeptStreams {
     files: InMemory,
     /// Whether standard input is held.
     has_stdin: bool,
+    /// List of temporary files, where streams of many pictures are kept on disk; without it, they are in memory, too.
+    unfinished: Option<Unfinished>,
+    /// Folders of what is kept on disk.
+    folders: Vec<Scratch>,
 }
+
+/// Bytes by which streams of many pictures are known.
+const BEGIN: u64 = 16;
 
 impl KeptStreams {
     /// Returns the name of an input that can be read repeatedly. It is the input's own, or that under which a stream is
@@ -55,19 +63,36 @@ impl KeptStreams {
     }
 
     /// Returns a source of inputs that has the bytes of the streams, and all other files from disk.
-    pub(crate) fn files(self) -> Arc<dyn Files> {
-        Arc::new(self.files)
+    pub(crate) fn files(&self) -> Arc<dyn Files> {
+        Arc::new(self.files.clone())
     }
 
     /// Holds the bytes of a stream, and returns the name under which it does.
-    fn keep(&mut self, source: &mut dyn Read, name: &str) -> Result<String> {
-        let mut bytes = Vec::new();
-        source.read_to_end(&mut bytes).with_context(|| format!("cannot read {name}"))?;
+    fn keep(&mut self, mut source: &mut dyn Read, name: &str) -> Result<String> {
+        let unread = || format!("cannot read {name}");
+        let mut begin = Vec::new();
+        (&mut source).take(BEGIN).read_to_end(&mut begin).with_context(unread)?;
         // Streams of many pictures are known by their names.
-        let kind = stream_kind(&bytes).filter(|kind| is_video(Path::new(&format!("stream.{kind}"))));
-        let name = kind.map_or_else(|| name.to_owned(), |kind| format!("{name}.{kind}"));
-        self.files.insert(&name, bytes);
-        Ok(name)
+        let kind = stream_kind(&begin).filter(|kind| is_video(Path::new(&format!("stream.{kind}"))));
+        let mut source = Cursor::new(begin).chain(source);
+        let held = kind.map_or_else(|| name.to_owned(), |kind| format!("{name}.{kind}"));
+        match self.unfinished.as_ref().filter(|_| kind.is_some()) {
+            Some(unfinished) => {
+                let folder = folder(unfinished)?;
+                let path = folder.path().join("stream");
+                let mut file = File::create_new(&path).with_context(|| format!("cannot make {}", path.display()))?;
+                let kept = copy(&mut source, &mut file);
+                kept.with_context(|| format!("cannot copy {name} to {}, which may be full", path.display()))?;
+                self.files.insert_kept(&held, path);
+                self.folders.push(folder);
+            }
+            None => {
+                let mut bytes = Vec::new();
+                source.read_to_end(&mut bytes).with_context(unread)?;
+                self.files.insert(&held, bytes);
+            }
+        }
+        Ok(held)
     }
 }
 
@@ -119,23 +144,25 @@ pub(crate) struct Piped {
     pub(crate) files: Arc<dyn Files>,
     /// Folder of the output that goes on to standard output.
     scratch: Option<Scratch>,
+    /// Inputs that are streams, kept as long as the conversion lasts.
+    _kept: KeptStreams,
 }
 
 impl Piped {
     /// Reads the inputs that are streams, and makes a folder for an output that goes to standard output.
     pub(crate) fn open(mut args: ConvertArgs, console: &mut Console) -> Result<Self> {
         check(&args, args.output == STREAM)?;
-        let mut kept = KeptStreams::default();
+        let mut kept = KeptStreams { unfinished: Some(console.unfinished.clone()), ..KeptStreams::default() };
         args.input = kept.input(&args.input)?;
         args.backdrop = args.backdrop.map(|backdrop| kept.input(&backdrop)).transpose()?;
         let mut scratch = None;
         if let Some(format) = &args.format {
-            let folder = scratch.insert(folder(console)?);
+            let folder = scratch.insert(folder(&console.unfinished)?);
             let path = folder.path().join(format!("standard output.{}", format.trim_start_matches('.')));
             console.call(&path, "standard output");
             args.output = path.display().to_string();
         }
-        Ok(Self { args, files: kept.files(), scratch })
+        Ok(Self { args, files: kept.files(), scratch, _kept: kept })
     }
 
     /// Copies the output to standard output.
@@ -153,9 +180,9 @@ impl Piped {
     }
 }
 
-/// Makes a folder for what goes to standard output.
-fn folder(console: &Console) -> Result<Scratch> {
-    Scratch::create(&console.unfinished).map_err(|error| {
+/// Makes a folder for what comes from standard input or goes to standard output.
+fn folder(unfinished: &Unfinished) -> Result<Scratch> {
+    Scratch::create(unfinished).map_err(|error| {
         let place = std::env::temp_dir();
         anyhow!(
             "no folder for what is piped can be made in {} ({}); name one where you may write, as in TMPDIR=/var/tmp",

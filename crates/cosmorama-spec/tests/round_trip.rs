@@ -52,6 +52,7 @@ fn values(kind: &str, key: &str, like: &str) -> BoxedStrategy<String> {
         (_, "yaw" | "roll" | "LENS.yaw" | "LENS.roll", _) => turn(-36000..36000),
         (_, "pitch" | "LENS.pitch", _) => turn(-8999..8999),
         (_, "feather", _) => number(0.001..180.0),
+        (_, "overlap", _) => (1..2048_usize).prop_map(|half| (2 * half).to_string()).boxed(),
         ("cube", "fov", _) => number(90.001..170.0),
         ("hugin", "lens", _) => one_of(&["rectilinear", "fisheye", "orthographic", "stereographic", "equisolid"]),
         (_, "lens", _) => one_of(&[
@@ -113,6 +114,7 @@ fn beside(kind: &str, key: &str) -> &'static str {
         ("st-map", key) if key != "file" => "file=a.exr,",
         (_, "swap" | "eye") => "stereo=tb-half,",
         ("cube", "feather") => "fov=100,",
+        ("cube", "overlap") => "layout=eac,",
         _ => "",
     }
 }

@@ -41,6 +41,7 @@ mod input {
 
 mod lenses {
     mod calibrations;
+    mod cameras;
     mod hugin;
     mod several_views;
     mod worlds;
@@ -72,7 +73,7 @@ mod sequence {
     #[cfg(target_os = "linux")]
     mod disks;
     #[cfg(feature = "video")]
-    mod films;
+    pub(crate) mod films;
     mod motion;
     mod resume;
     #[cfg(target_os = "linux")]

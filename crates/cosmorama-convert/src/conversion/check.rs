@@ -111,11 +111,14 @@ fn with_frames_at_times(settings: Conversion) -> Result<Conversion> {
         return refused("is no video, whose frames have times");
     };
     is_one_file(&*files, input, video)?;
-    let Some(rate) = videos.rate(video)? else { return refused("has a frame rate that varies") };
     let count = videos.count(video)?;
-    let frames = FrameList::new(times.frames(rate, count));
+    let (frames, rate) = match (videos.rate(video)?, videos.begins(video)?) {
+        (Some(rate), _) => (FrameList::new(times.frames(rate, count)), format!("at {rate} a second")),
+        (None, Some(begins)) => (FrameList::new(times.frames_among(&begins)), "at a rate that varies".to_owned()),
+        (None, None) => return refused("says no frame rate"),
+    };
     if frames.frames().is_empty() {
-        bail!(NotFound: "{FRAMES} {times}: {input} has no frame then; it has {count}, at {rate} a second");
+        bail!(NotFound: "{FRAMES} {times}: {input} has no frame then; it has {count}, {rate}");
     }
     Ok(Conversion { frames: Some(frames), ..settings })
 }

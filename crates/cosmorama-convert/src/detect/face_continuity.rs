@@ -69,9 +69,12 @@ impl GivenFaces {
         Self::new(cube, GivenPacking::Files(naming), SamplePositions::Centres, faces.iter().copied())
     }
 
-    /// Describes the faces in an image of a layout, whose file may have metadata of its own.
+    /// Describes the faces in an image of a layout, whose file may have metadata of its own; `None` for faces that lie as halves.
     pub fn of_image(cube: &Cube, envmap: Option<EnvMap>) -> Option<Self> {
         let (Some(Packing::OneImage(kind)), Some(layout)) = (cube.layout, cube.one_image()) else { return None };
+        if cube.overlap > 0 {
+            return None;
+        }
         let faces = layout.faces(2).into_iter().map(|placed| (placed.face, placed.lies));
         let by_file = if envmap == Some(EnvMap::Cube) { SamplePositions::Edges } else { SamplePositions::Centres };
         let chosen = faces.filter(|(face, _)| cube.faces.contains(face));

@@ -181,16 +181,16 @@ impl Input {
     }
 }
 
-/// Returns the projection that the spherical tags of a video name, and tells of it.
+/// Returns the projection that a video names, by its spherical tags or its two streams, and tells of it.
 fn said_by(files: &ViewFiles, access: Access, warnings: &mut Vec<Diagnostic>) -> Result<Option<Spec>> {
     let Some((video, videos)) = files.video().zip(access.files.videos()) else { return Ok(None) };
     let said = videos.spec(video)?;
-    warnings.extend(said.as_ref().map(|spec| {
+    warnings.extend(said.as_ref().map(|(spec, by)| {
         let name = video.display();
-        let message = format!("{name} is read as {FROM} {spec}, as its spherical tags say");
+        let message = format!("{name} is read as {FROM} {spec}, as its {by} say");
         Diagnostic::note(Code::Detected, message).about(name)
     }));
-    Ok(said)
+    Ok(said.map(|(spec, _)| spec))
 }
 
 /// Returns the note about a picture of one pixel, whose shape says nothing about its projection.

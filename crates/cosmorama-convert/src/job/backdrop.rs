@@ -84,7 +84,7 @@ impl FoundBackdrop {
             return Err(usage(format!("{BACKDROP} {name}: these are numbers, not light; give a picture of a world")));
         }
         let files = ChosenFiles::new(Arc::clone(&settings.files), Choice::default(), settings.video.damaged);
-        let files: Arc<dyn Files> = Arc::new(files);
+        let files: Arc<dyn Files> = Arc::new(files.ending_with(&settings.unfinished));
         let decoded = DecodedPicture::up_to(memory.bytes / DECODED_PART);
         let access = Access { files: &*files, memory, decoded: &decoded };
         let mut said = Vec::new();

@@ -94,7 +94,8 @@ fn chosen(settings: &Conversion, content: Content) -> Arc<dyn Files> {
     let is_exr = Format::of_name(Path::new(&settings.output)) == Some(Format::Exr);
     let without_picture = content == Content::World && is_exr && settings.light.is_none();
     let choice = Choice { part, channels, without_picture };
-    Arc::new(ChosenFiles::new(Arc::clone(&settings.files), choice, settings.video.damaged))
+    let files = ChosenFiles::new(Arc::clone(&settings.files), choice, settings.video.damaged);
+    Arc::new(files.ending_with(&settings.unfinished))
 }
 
 /// Resolves the movement of the camera and of the input, which gives a still input its frames.

@@ -1,6 +1,6 @@
 use cosmorama::camera::{CameraError, Canvas, PixelRect, Placement, View};
 use cosmorama::layout::{CubeLayout, LayoutError, PlacedFace, PlacedLens};
-use cosmorama::sphere::{CubeFace, Orientation};
+use cosmorama::sphere::{Angle, CubeFace, Orientation};
 use cosmorama::world::Blend;
 use cosmorama_spec::{Cube, Dual};
 
@@ -27,13 +27,19 @@ pub(crate) struct Piece {
 impl Piece {
     /// Returns the faces of a cube of `edge`×`edge` pixels.
     pub(crate) fn faces(cube: &Cube, layout: &CubeLayout, edge: usize) -> Vec<Self> {
+        let shared = layout.shared(edge);
+        let blend = if shared > Angle::ZERO {
+            Blend { priority: 0, feather: cube.feather.unwrap_or(shared) }
+        } else {
+            cube.blend()
+        };
         let piece = |PlacedFace { face, lies, rect, canvas }| Self {
             name: face.name(),
             face: Some(face),
             rect,
             placement: face_placement(cube, face, lies, Some(canvas), Orientation::IDENTITY),
             canvas,
-            blend: cube.blend(),
+            blend,
         };
         let wanted = layout.faces(edge).into_iter().filter(|placed| cube.faces.contains(&placed.face));
         wanted.map(piece).collect()

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use cosmorama::raster::FramePool;
+use cosmorama_io::pending::Unfinished;
 use cosmorama_io::{
     Calibration, CalibrationError, Choice, Header, ImageFile, IoError, Limits, Plane, PtoError, PtoProject, ReadSeek,
     StPairs, open, probe_chosen, probe_pairs_from, read_chosen, read_layers, read_pairs_from,
@@ -79,6 +80,11 @@ impl ChosenFiles {
         let videos = Videos::new(damaged, Arc::new(Streams(Arc::clone(&files))));
         Self { files, choice, videos }
     }
+
+    /// Has programs that read videos end with unfinished files when the job is interrupted.
+    pub(crate) fn ending_with(self, unfinished: &Unfinished) -> Self {
+        Self { videos: self.videos.ending_with(unfinished), ..self }
+    }
 }
 
 impl Files for ChosenFiles {
@@ -124,13 +130,26 @@ impl Files for Disk {
 /// Named files in memory, for example standard input; all other files are on disk.
 #[derive(Clone, Default)]
 pub struct InMemory {
-    files: BTreeMap<PathBuf, Arc<[u8]>>,
+    files: BTreeMap<PathBuf, Held>,
+}
+
+/// Bytes of a named file.
+#[derive(Clone)]
+enum Held {
+    Memory(Arc<[u8]>),
+    /// In a file of another name.
+    Disk(PathBuf),
 }
 
 impl InMemory {
     /// Adds a file.
     pub fn insert(&mut self, name: impl Into<PathBuf>, bytes: Vec<u8>) {
-        self.files.insert(name.into(), bytes.into());
+        self.files.insert(name.into(), Held::Memory(bytes.into()));
+    }
+
+    /// Adds a file that is too long for memory, whose bytes are in another file on disk.
+    pub fn insert_kept(&mut self, name: impl Into<PathBuf>, kept: PathBuf) {
+        self.files.insert(name.into(), Held::Disk(kept));
     }
 }
 
@@ -143,7 +162,8 @@ impl Debug for InMemory {
 impl Files for InMemory {
     fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek + Send>, IoError> {
         match self.files.get(path) {
-            Some(bytes) => Ok(Box::new(Cursor::new(Arc::clone(bytes)))),
+            Some(Held::Memory(bytes)) => Ok(Box::new(Cursor::new(Arc::clone(bytes)))),
+            Some(Held::Disk(kept)) => Disk.open(kept),
             None => Disk.open(path),
         }
     }

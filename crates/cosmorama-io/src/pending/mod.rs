@@ -16,7 +16,8 @@ use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::process::{Child, Command};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 
 use tempfile::{Builder, TempDir, TempPath};
 
@@ -29,7 +30,7 @@ use crate::IoError;
 const PREFIX: &str = ".cosmorama-";
 const SUFFIX: &str = ".part";
 
-/// List of temporary files in progress. Clones share the list.
+/// List of temporary files in progress, and of programs that work for them. Clones share the list.
 #[derive(Clone, Debug, Default)]
 pub struct Unfinished(Arc<Mutex<Listing>>);
 
@@ -42,14 +43,17 @@ struct Listing {
     folders: BTreeSet<PathBuf>,
     /// Folders in which files of killed programs have been sought.
     swept: BTreeSet<PathBuf>,
+    /// Programs that were started and are still needed.
+    programs: Vec<Weak<Mutex<Child>>>,
 }
 
 impl Unfinished {
-    /// Deletes all temporary files on the list and empty new folders, for interrupt handlers. The program must end next:
-    /// from now on, whoever begins, finishes or abandons a file of this list blocks until it does. So nothing appears
-    /// after the removal, and no writer's failure is reported in place of the interrupt.
+    /// Deletes all temporary files on the list and empty new folders, and ends the programs on it, for interrupt handlers. The
+    /// program must end next: from now on, whoever begins, finishes or abandons a file or a program of this list blocks until it
+    /// does. So nothing appears after the removal, and no writer's failure is reported in place of the interrupt.
     pub fn remove_all(&self) {
         let listing = self.listing();
+        end_all(&listing.programs);
         for path in &listing.paths {
             // Whether a file is already gone does not matter.
             let _ = if path.is_dir() { std::fs::remove_dir_all(path) } else { std::fs::remove_file(path) };
@@ -59,6 +63,24 @@ impl Unfinished {
             let _ = std::fs::remove_dir(folder);
         }
         std::mem::forget(listing);
+    }
+
+    /// Starts a program, which [`Unfinished::remove_all`] ends.
+    ///
+    /// # Errors
+    /// When it cannot be started.
+    pub fn start(&self, command: &mut Command) -> io::Result<Arc<Mutex<Child>>> {
+        let mut listing = self.listing();
+        let program = Arc::new(Mutex::new(command.spawn()?));
+        listing.programs.retain(|other| other.strong_count() > 0);
+        listing.programs.push(Arc::downgrade(&program));
+        Ok(program)
+    }
+
+    /// Goes on if programs are still wanted. Whoever sees a program end calls this before it is told as a failure: once
+    /// [`Unfinished::remove_all`] has ended all programs, it blocks.
+    pub fn go_on(&self) {
+        drop(self.listing());
     }
 
     fn listing(&self) -> MutexGuard<'_, Listing> {
@@ -80,6 +102,17 @@ impl Unfinished {
         listing.paths.insert(path.clone());
         Ok((made, Listed { path, list: self.clone() }))
     }
+}
+
+/// Ends programs, and waits for all of them.
+fn end_all(programs: &[Weak<Mutex<Child>>]) {
+    let running: Vec<_> = programs.iter().filter_map(Weak::upgrade).collect();
+    let each = |act: fn(&mut Child)| {
+        running.iter().for_each(|program| act(&mut program.lock().unwrap_or_else(PoisonError::into_inner)));
+    };
+    // One that has ended already cannot be ended again, which does not matter.
+    each(|program| drop(program.kill()));
+    each(|program| drop(program.wait()));
 }
 
 /// A temporary folder for private files. It is deleted when dropped, and by [`Unfinished::remove_all`].

@@ -65,6 +65,20 @@ impl TimeRanges {
             first..end.min(count)
         })
     }
+
+    /// Returns the numbers of the frames that begin in these ranges, and of those that are shown at single times, in a video of
+    /// variable rate. Its frames begin at these nanoseconds, the first at 0 and each later than the one before.
+    pub fn frames_among(&self, begins: &[u64]) -> Vec<u64> {
+        let before = |time: Time| begins.partition_point(|begin| *begin < time.0);
+        let of = |range: &Range| match range.end {
+            Some(end) => before(range.first)..before(end),
+            None => {
+                let shown = begins.partition_point(|begin| *begin <= range.first.0);
+                shown.saturating_sub(1)..shown
+            }
+        };
+        self.0.iter().flat_map(of).map(|frame| frame as u64).collect()
+    }
 }
 
 impl Time {
@@ -188,6 +202,16 @@ mod tests {
             assert_eq!(times.to_string().parse::<TimeRanges>().unwrap(), times);
         }
         assert_eq!("0:1:2-0:1:3.50".parse::<TimeRanges>().unwrap().to_string(), "00:01:02-00:01:03.5");
+    }
+
+    #[test]
+    fn frames_of_a_variable_rate_are_found_by_their_own_times() {
+        let begins = [0, 40, 100, 1000, 2500].map(|milliseconds: u64| milliseconds * 1_000_000);
+        let found = |text: &str| text.parse::<TimeRanges>().unwrap().frames_among(&begins);
+        assert_eq!(found("00:00:00-00:00:00.1"), [0, 1]);
+        assert_eq!(found("00:00:00.1-00:00:09"), [2, 3, 4]);
+        assert_eq!(found("00:00:02.499,00:00:00,00:00:09"), [3, 0, 4]);
+        assert!(found("00:00:00.2-00:00:00.9").is_empty());
     }
 
     #[test]

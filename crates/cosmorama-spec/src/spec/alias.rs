@@ -4,7 +4,7 @@ use super::projections::Kind;
 use crate::error::key_for;
 
 /// Other programs' names, each with the SPEC that it stands for.
-pub(super) const ALIASES: [(&str, &str); 34] = [
+pub(super) const ALIASES: [(&str, &str); 37] = [
     ("e", "equirect"),
     ("equirectangular", "equirect"),
     ("latlong", "equirect"),
@@ -15,6 +15,16 @@ pub(super) const ALIASES: [(&str, &str); 34] = [
     ("hequirect", "equirect:hfov=180"),
     // The front half for each eye, as cameras with two eyes and players have it.
     ("vr180", "equirect:hfov=180,stereo=sbs"),
+    // Two rows of three faces of equal angles. Of the outer ones, each half is by another lens, and 64 columns of a row are there
+    // twice: outer faces of 1376 columns beside an inner one of 1344. David Greenwood, "Reverse Engineering GoPro's 360 Video File
+    // Format", part 3, trekview.org 2021; Paul Bourke, "GoPro MAX 360 Action Cam movie layout", paulbourke.net/panorama/gopromax2sphere.
+    ("gopro-max", "cube:layout=eac,overlap=32"),
+    // Circles of some 204 degrees beside each other, upright; insta360-to-equirectangular.sh, by v360=dfisheye:e:ih_fov=204.
+    // Which lens is called the front is a choice. Models differ: an Air has 191.5, by the shader below.
+    ("insta360", "dual-fisheye:fov=204"),
+    // The left picture lies with its upper side to the left, the right one with its upper side to the right; 90 degrees are 0.445 of
+    // a half's width. Nora, ThetaRealtimeEquirectangular (Unity shader), 2015; mrdoob/three.js, webgl_panorama_dualfisheye.html.
+    ("theta", "dual-fisheye:fov=202,front.roll=90,back.roll=-90"),
     ("flat", "perspective"),
     ("gnomonic", "perspective"),
     ("rectilinear", "perspective"),
@@ -46,7 +56,7 @@ pub(super) const ALIASES: [(&str, &str); 34] = [
 
 /// Words that people try for a projection, each with the SPEC that they may mean. They are suggested, not understood: some
 /// have a second meaning.
-const TRIED: [(&[&str], &str); 15] = [
+const TRIED: [(&[&str], &str); 16] = [
     (&["planet", "small-planet", "smallplanet", "stereo-planet"], "little-planet"),
     (&["dome", "planetarium", "master"], "fulldome"),
     (&["hemisphere", "hemispherical", "all-sky", "allsky"], "fisheye"),
@@ -61,7 +71,8 @@ const TRIED: [(&[&str], &str); 15] = [
     (&["pinhole", "normal", "camera", "undistorted", "view", "flat-view", "persp"], "perspective"),
     (&["chrome-ball", "chromeball", "mirrorball", "silver-ball"], "mirror-ball"),
     (&["probe", "light-probe", "lightprobe", "angular"], "angular-map"),
-    (&["insta360", "theta", "two-fisheyes", "double-fisheye"], "dual-fisheye"),
+    (&["two-fisheyes", "double-fisheye"], "dual-fisheye"),
+    (&["gopro", "gopromax", "max", "gopro-360"], "gopro-max"),
 ];
 
 /// Returns the SPEC that a word tried for a projection may mean.

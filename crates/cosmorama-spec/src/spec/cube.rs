@@ -25,6 +25,8 @@ pub struct Cube {
     pub rotate: Option<[u8; 6]>,
     /// Field of view of a face, from edge to edge.
     pub field_of_view: Angle,
+    /// Columns that both halves of an outer face show, where these are stored as halves; 0 where they are whole.
+    pub overlap: usize,
     /// Width of the band at its border over which a face fades out, if given.
     pub feather: Option<Angle>,
     /// Face at the middle of half a cube; `None` for a whole cube.
@@ -70,6 +72,7 @@ impl Default for Cube {
             order: None,
             rotate: None,
             field_of_view: LayoutFaceCamera::RIGHT_ANGLE,
+            overlap: 0,
             feather: None,
             half: None,
             samples: None,
@@ -109,7 +112,7 @@ impl Cube {
         if let Some(half) = self.half {
             layout = layout.with_half(half);
         }
-        Some(layout.mirrored(self.mirror))
+        Some(layout.with_overlap(self.overlap).mirrored(self.mirror))
     }
 
     /// Returns the placement of the picture in a face's own file, from its naming and `rotate=`.
@@ -163,6 +166,7 @@ impl Cube {
             order: order(fields)?,
             rotate: fields.read("rotate", "six quarter turns from 0 to 3, as in rotate=000102", turns)?,
             field_of_view: fields.angle("fov")?.unwrap_or(LayoutFaceCamera::RIGHT_ANGLE),
+            overlap: fields.read("overlap", OVERLAP, overlap)?.unwrap_or(0),
             feather: fields.feather()?,
             half,
             samples: fields.samples()?,
@@ -191,6 +195,7 @@ impl Cube {
             .maybe("order", order)
             .maybe("rotate", rotate)
             .angle("fov", cube.field_of_view, LayoutFaceCamera::RIGHT_ANGLE)
+            .maybe("overlap", Some(cube.overlap).filter(|overlap| *overlap > 0))
             .maybe("feather", cube.feather.map(Degrees))
             .maybe("half", cube.half.map(CubeFace::name))
             .maybe("samples", cube.samples.map(samples_name))
@@ -214,13 +219,37 @@ impl Cube {
         if one_image && (self.canvas.is_some() || !self.face_canvas.is_empty()) {
             return Err(SpecError::Both { first: "canvas", second: "layout" });
         }
-        if let (Some(feather), true) = (fields.get("feather"), self.field_of_view <= LayoutFaceCamera::RIGHT_ANGLE) {
+        let is_alone = self.field_of_view <= LayoutFaceCamera::RIGHT_ANGLE && self.overlap == 0;
+        if let (Some(feather), true) = (fields.get("feather"), is_alone) {
             return Err(wrong("feather", feather, "faces that overlap, as with fov=100; these have nothing to blend"));
+        }
+        if let Some(overlap) = fields.get("overlap") {
+            self.check_overlap(fields, overlap)?;
         }
         if self.half.is_some() && self.samples() == SamplePositions::Edges {
             return Err(SpecError::Both { first: "half", second: "samples=edges" });
         }
         Ok(())
+    }
+}
+
+/// Value of `overlap=`, in words.
+const OVERLAP: &str = "an even number of columns from 2 to 4096, as in overlap=32";
+
+fn overlap(text: &str) -> Option<usize> {
+    text.parse().ok().filter(|columns: &usize| (2..=4096).contains(columns) && columns.is_multiple_of(2))
+}
+
+impl Cube {
+    /// Checks that halves of faces are those of whole faces in a layout with outer columns.
+    fn check_overlap(&self, fields: &Fields, overlap: &str) -> Result<(), SpecError> {
+        if self.layout != Some(Packing::OneImage(LayoutKind::Eac)) {
+            return Err(wrong("overlap", overlap, "layout=eac beside it; in other layouts, faces are whole"));
+        }
+        match ["half", "fov"].into_iter().find(|key| fields.get(key).is_some()) {
+            Some(first) => Err(SpecError::Both { first, second: "overlap" }),
+            None => Ok(()),
+        }
     }
 }
 

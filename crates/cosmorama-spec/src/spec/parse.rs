@@ -345,6 +345,14 @@ mod tests {
         assert_eq!(spec("dfisheye:fov=195"), spec("dual-fisheye:order=bf,fov=195"));
         assert_eq!(spec("he:stereo=sbs"), spec("equirect:hfov=180,stereo=sbs"));
         assert_eq!(spec("vr180"), spec("equirect:hfov=180,stereo=sbs"));
+        assert_eq!(spec("gopro-max:yaw=3"), spec("cube:layout=eac,overlap=32,yaw=3"));
+        assert_eq!(spec("insta360:fov=191.5"), spec("dual-fisheye:fov=191.5"));
+        assert_eq!(spec("theta:fov=200"), spec("dual-fisheye:fov=200,front.roll=90,back.roll=-90"));
+        assert!(refused("gopro").contains("did you mean 'gopro-max'?"), "{}", refused("gopro"));
+        assert!(refused("cube:overlap=32").contains("layout=eac"));
+        assert!(refused("cube:layout=3x2,overlap=32").contains("layout=eac"));
+        assert!(refused("cube:layout=eac,overlap=31").contains("even number"));
+        assert!(refused("cube:layout=eac,overlap=32,half=up").contains("half= and overlap= cannot both"));
         assert_eq!(spec("vr180:stereo=tb,eye=left"), spec("equirect:hfov=180,stereo=tb,eye=left"));
     }
 

@@ -77,6 +77,11 @@ pub(crate) static KINDS: &[Kind] = &[
             key("order", "rludfb|PRESET", "faces in reading order: six letters, six words or a preset (below)"),
             key("rotate", "000000", "quarter turns clockwise of each picture, in the same order"),
             key("fov", "DEGREES", "what a face sees both ways (90); of more, neighbours overlap and are blended"),
+            key(
+                "overlap",
+                "COLUMNS",
+                "layout=eac: the outer faces lie as halves that share so many columns, as in GoPro MAX's frames (0)",
+            ),
             key("feather", "DEGREES", "the band at a face's border over which it fades out (all that overlaps)"),
             key(
                 "half",

@@ -1,8 +1,11 @@
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 use std::process::{self, Command, ExitStatus, Stdio};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
+
+use cosmorama_io::pending::Unfinished;
 
 use crate::VideoError;
 
@@ -12,53 +15,79 @@ const LOOK: Duration = Duration::from_millis(5);
 /// Longest message that is kept of a program.
 const LONGEST_LINE: u64 = 1 << 16;
 
-/// A running program. Dropped, it is ended and waited for, so that none stays behind.
+/// A running program. Dropped, it is ended and waited for, so that none stays behind; when this process is interrupted, too.
 #[derive(Debug)]
-pub(crate) struct Child(process::Child);
+pub(crate) struct Child {
+    program: Arc<Mutex<process::Child>>,
+    unfinished: Unfinished,
+}
 
 impl Child {
     /// Starts a program in a group of its own: an interrupt at the terminal reaches this process alone, which then ends the other.
-    pub(crate) fn start(mut command: Command, program: &str) -> Result<Self, VideoError> {
+    pub(crate) fn start(mut command: Command, program: &str, unfinished: &Unfinished) -> Result<Self, VideoError> {
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut command, 0);
-        command.spawn().map(Self).map_err(|source| VideoError::Run { program: program.to_owned(), source })
+        let started = unfinished.start(&mut command);
+        let program = started.map_err(|source| VideoError::Run { program: program.to_owned(), source })?;
+        Ok(Self { program, unfinished: unfinished.clone() })
+    }
+
+    fn program(&self) -> MutexGuard<'_, process::Child> {
+        self.program.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     pub(crate) fn stdin(&mut self) -> Option<process::ChildStdin> {
-        self.0.stdin.take()
+        self.program().stdin.take()
     }
 
     pub(crate) fn stdout(&mut self) -> Option<process::ChildStdout> {
-        self.0.stdout.take()
+        self.program().stdout.take()
     }
 
     pub(crate) fn stderr(&mut self) -> Option<process::ChildStderr> {
-        self.0.stderr.take()
+        self.program().stderr.take()
     }
 
     /// Waits until the program has ended.
     pub(crate) fn wait(&mut self) -> io::Result<ExitStatus> {
-        self.0.wait()
+        loop {
+            if let Some(status) = self.ended()? {
+                return Ok(status);
+            }
+            thread::sleep(LOOK);
+        }
     }
 
     /// Waits until the program has ended, `patience` at most.
     fn wait_for(&mut self, patience: Duration) -> io::Result<Option<ExitStatus>> {
         let begin = Instant::now();
         loop {
-            let status = self.0.try_wait()?;
+            let status = self.ended()?;
             if status.is_some() || begin.elapsed() > patience {
                 return Ok(status);
             }
             thread::sleep(LOOK);
         }
     }
+
+    /// Looks whether the program has ended. Nobody holds it for longer: an interrupt ends it.
+    fn ended(&self) -> io::Result<Option<ExitStatus>> {
+        let status = self.program().try_wait()?;
+        if status.is_some() {
+            self.unfinished.go_on();
+        }
+        Ok(status)
+    }
 }
 
 impl Drop for Child {
     fn drop(&mut self) {
+        let mut program = self.program();
         // A program that has ended and was waited for is not ended twice: `kill` says so, and nothing is lost.
-        let _ = self.0.kill();
-        let _ = self.0.wait();
+        let _ = program.kill();
+        let _ = program.wait();
+        drop(program);
+        self.unfinished.go_on();
     }
 }
 
@@ -86,13 +115,13 @@ fn last_line(text: &str) -> String {
 /// Runs a program about a file, and returns what it prints.
 pub(super) fn output(
     command: Command,
-    program: &'static str,
+    (program, unfinished): (&'static str, &Unfinished),
     path: &Path,
     limit: usize,
     patience: Duration,
 ) -> Result<Said, VideoError> {
     let failed = |source| VideoError::Run { program: program.to_owned(), source };
-    let mut child = piped(command, program)?;
+    let mut child = piped(command, program, unfinished)?;
     let stdout = drain(child.stdout(), limit);
     let stderr = drain(child.stderr(), limit);
     let status = child.wait_for(patience).map_err(failed)?;
@@ -110,12 +139,12 @@ pub(super) fn output(
 /// Runs a program about a file, and gives each line that it prints to `each`.
 pub(super) fn lines(
     command: Command,
-    program: &'static str,
+    (program, unfinished): (&'static str, &Unfinished),
     path: &Path,
     mut each: impl FnMut(&str) -> Result<(), VideoError>,
 ) -> Result<(), VideoError> {
     let failed = |source| VideoError::Run { program: program.to_owned(), source };
-    let mut child = piped(command, program)?;
+    let mut child = piped(command, program, unfinished)?;
     let stderr = drain(child.stderr(), LONGEST_LINE as usize);
     let mut stdout = BufReader::new(child.stdout().ok_or_else(|| failed(io::ErrorKind::BrokenPipe.into()))?);
     let mut line = String::new();
@@ -131,9 +160,9 @@ pub(super) fn lines(
     Ok(())
 }
 
-fn piped(mut command: Command, program: &str) -> Result<Child, VideoError> {
+fn piped(mut command: Command, program: &str, unfinished: &Unfinished) -> Result<Child, VideoError> {
     command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
-    Child::start(command, program)
+    Child::start(command, program, unfinished)
 }
 
 type Drained = JoinHandle<io::Result<Vec<u8>>>;
@@ -166,15 +195,36 @@ mod tests {
     #[test]
     fn a_program_that_does_not_end_is_ended() {
         let begin = Instant::now();
-        let error = output(shell("sleep 60"), "ffprobe", Path::new("a"), 9, Duration::from_millis(50)).unwrap_err();
+        let program = ("ffprobe", &Unfinished::default());
+        let error = output(shell("sleep 60"), program, Path::new("a"), 9, Duration::from_millis(50)).unwrap_err();
         assert!(matches!(error, VideoError::TooSlow { .. }), "{error}");
         assert!(begin.elapsed() < Duration::from_secs(20));
+    }
+
+    // Whoever waits for a program is not told that it has failed: the process ends next.
+    #[test]
+    fn an_interrupt_ends_programs_and_nobody_is_told() {
+        let (unfinished, begin) = (Unfinished::default(), Instant::now());
+        let (told, ear) = std::sync::mpsc::channel();
+        let waiting = unfinished.clone();
+        let program = Child::start(shell("echo; exec sleep 60"), "sleep", &waiting).unwrap();
+        let place = format!("/proc/{}", program.program().id());
+        thread::spawn(move || {
+            let mut program = program;
+            told.send(program.wait().is_ok())
+        });
+        thread::sleep(Duration::from_millis(50));
+        unfinished.remove_all();
+        assert!(begin.elapsed() < Duration::from_secs(2));
+        assert!(!cfg!(target_os = "linux") || !Path::new(&place).exists(), "it was not waited for");
+        assert!(ear.recv_timeout(Duration::from_millis(200)).is_err());
     }
 
     #[test]
     fn full_pipes_do_not_stop_a_program() {
         let much = "yes out | head -c 1000000; yes err | head -c 1000000 >&2; exit 3";
-        let said = output(shell(much), "ffprobe", Path::new("a"), 10, Duration::from_secs(60)).unwrap();
+        let program = ("ffprobe", &Unfinished::default());
+        let said = output(shell(much), program, Path::new("a"), 10, Duration::from_secs(60)).unwrap();
         assert_eq!(
             (said.is_success, said.stdout.as_slice(), said.stderr.as_str()),
             (false, &b"out\nout\nou"[..], "err\nerr\ner")

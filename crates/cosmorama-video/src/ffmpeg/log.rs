@@ -80,6 +80,9 @@ impl Log {
 const CONSEQUENCES: [&str; 4] =
     ["Conversion failed", "Error marking filters as finished", "Error closing", "Terminating demuxer"];
 
+/// Marks of messages of errors.
+const LEVELS: [&str; 3] = ["[error] ", "[fatal] ", "[panic] "];
+
 /// Messages of the level of errors that are about nothing that is seen: pictures that a broken link or an early start takes away
 /// are dropped, and then missed by their numbers.
 const HARMLESS: [&str; 3] = ["co located POCs unavailable", "mmco: unref short failure", "Last message repeated"];
@@ -90,14 +93,14 @@ fn event(line: &str) -> Option<Event> {
     if line.contains("corrupt decoded frame") {
         return Some(Event::Corrupt);
     }
-    if let Some((_, rest)) = line.split_once("frame:")
+    let is_error = LEVELS.iter().any(|level| line.contains(level));
+    if let (false, Some((_, rest))) = (is_error, line.split_once("frame:"))
         && rest.starts_with(|c: char| c.is_ascii_digit())
         && let Some((_, rest)) = rest.split_once("pts:")
     {
         let time = rest.split_whitespace().next().and_then(|ticks| ticks.parse().ok());
         return Some(Event::Frame(time));
     }
-    let is_error = ["[error] ", "[fatal] ", "[panic] "].iter().any(|level| line.contains(level));
     let is_harmless = HARMLESS.iter().any(|words| line.contains(words));
     (is_error && !is_harmless).then(|| Event::Complaint(without_marks(line)))
 }
@@ -105,7 +108,7 @@ fn event(line: &str) -> Option<Event> {
 /// Returns a message without addresses in memory and levels.
 fn without_marks(line: &str) -> String {
     let mut text = line.trim();
-    for level in ["[error] ", "[fatal] ", "[panic] "] {
+    for level in LEVELS {
         text = text.split_once(level).map_or(text, |(_, rest)| rest);
     }
     text.chars().filter(|letter| !letter.is_control()).take(400).collect()
@@ -125,6 +128,12 @@ mod tests {
         let error = event("[png @ 0x55db] [error] chunk too big\n");
         assert_eq!(error, Some(Event::Complaint("chunk too big".to_owned())));
         assert_eq!(event("[swscaler @ 0x55db] [warning] deprecated pixel format used"), None);
+        // Names of files are part of messages, and may look like others.
+        let forged = "[error] /films/frame:7 pts:9.mkv: Invalid data found when processing input";
+        assert!(matches!(event(forged), Some(Event::Complaint(text)) if text.contains("Invalid data")));
+        let damaged = "[warning] frame:7 pts:9.mkv: corrupt decoded frame in stream 0";
+        assert_eq!(event(damaged), Some(Event::Corrupt));
+        assert_eq!(event("[warning] my frame: pts: of old"), None);
         assert_eq!(event("[h264 @ 0x55db] [error] co located POCs unavailable"), None);
     }
 

@@ -10,6 +10,8 @@ use std::process::Command;
 use std::sync::OnceLock;
 use std::time::Duration;
 
+use cosmorama_io::pending::Unfinished;
+
 pub(crate) use child::{Child, Said};
 pub(crate) use log::{Event, Log};
 pub use version::Version;
@@ -23,6 +25,7 @@ pub struct Ffmpeg {
     ffprobe: PathBuf,
     version: Version,
     encoders: OnceLock<Vec<String>>,
+    unfinished: Unfinished,
 }
 
 /// Containers that are read. Others are not even tried: play lists would have ffmpeg read further files, and patterns of pictures
@@ -58,7 +61,18 @@ impl Ffmpeg {
     pub fn at(ffmpeg: PathBuf, ffprobe: PathBuf) -> Result<Self, VideoError> {
         let version = version_of("ffmpeg", &ffmpeg)?;
         version_of("ffprobe", &ffprobe)?;
-        Ok(Self { ffmpeg, ffprobe, version, encoders: OnceLock::new() })
+        Ok(Self { ffmpeg, ffprobe, version, encoders: OnceLock::new(), unfinished: Unfinished::default() })
+    }
+
+    /// Puts the programs that are started from now on a list, by which an interrupt ends them.
+    #[must_use]
+    pub fn ending_with(self, unfinished: &Unfinished) -> Self {
+        Self { unfinished: unfinished.clone(), ..self }
+    }
+
+    /// Returns the list of programs that an interrupt ends.
+    pub(crate) fn unfinished(&self) -> &Unfinished {
+        &self.unfinished
     }
 
     /// Returns the version of ffmpeg.
@@ -76,7 +90,7 @@ impl Ffmpeg {
         }
         let mut command = self.ffmpeg_command();
         command.arg("-encoders");
-        let said = child::output(command, "ffmpeg", Path::new("ffmpeg"), ANSWER, PATIENCE)?;
+        let said = child::output(command, ("ffmpeg", &self.unfinished), Path::new("ffmpeg"), ANSWER, PATIENCE)?;
         let found = names_of_encoders(&String::from_utf8_lossy(&said.stdout));
         Ok(self.encoders.get_or_init(|| found))
     }
@@ -107,7 +121,7 @@ impl Ffmpeg {
     ) -> Result<Said, VideoError> {
         let mut command = quiet(&self.ffprobe);
         command.args(["-v", "error"]).args(input_limits()).args(arguments).arg("-i").arg(url(path));
-        child::output(command, "ffprobe", path, limit, patience)
+        child::output(command, ("ffprobe", &self.unfinished), path, limit, patience)
     }
 
     /// Runs ffprobe on a file, and gives each line that it prints to `each`.
@@ -122,7 +136,7 @@ impl Ffmpeg {
     ) -> Result<(), VideoError> {
         let mut command = quiet(&self.ffprobe);
         command.args(["-v", "error"]).args(input_limits()).args(arguments).arg("-i").arg(url(path));
-        child::lines(command, "ffprobe", path, each)
+        child::lines(command, ("ffprobe", &self.unfinished), path, each)
     }
 }
 
@@ -148,12 +162,15 @@ fn quiet(program: &Path) -> Command {
 fn version_of(name: &'static str, program: &Path) -> Result<Version, VideoError> {
     let mut command = quiet(program);
     command.arg("-version");
-    let said = child::output(command, name, program, ANSWER, PATIENCE).map_err(|error| match error {
-        VideoError::Run { source, .. } if source.kind() == std::io::ErrorKind::NotFound => {
-            VideoError::NotInstalled { program: name }
-        }
-        other => other,
-    })?;
+    let said =
+        child::output(command, (name, &Unfinished::default()), program, ANSWER, PATIENCE).map_err(
+            |error| match error {
+                VideoError::Run { source, .. } if source.kind() == std::io::ErrorKind::NotFound => {
+                    VideoError::NotInstalled { program: name }
+                }
+                other => other,
+            },
+        )?;
     let found = Version::of_words(&String::from_utf8_lossy(&said.stdout));
     found.filter(|version| *version >= Ffmpeg::OLDEST).ok_or_else(|| VideoError::TooOld {
         program: name,

@@ -24,13 +24,25 @@ impl Ffmpeg {
     /// # Errors
     /// When the file cannot be read, holds no video, or says impossible things of it.
     pub fn probe(&self, path: &Path) -> Result<VideoInfo, VideoError> {
+        self.probed(path, None)
+    }
+
+    /// Reads what another of a file's videos is, by the number of its stream.
+    pub(crate) fn probe_stream(&self, path: &Path, stream: u32) -> Result<VideoInfo, VideoError> {
+        self.probed(path, Some(stream))
+    }
+
+    fn probed(&self, path: &Path, stream: Option<u32>) -> Result<VideoInfo, VideoError> {
         let cut = looked_at(path)?;
         let said =
             self.ffprobe(path, &["-of", "json", "-show_format", "-show_streams", "-show_chapters"], ANSWER, PATIENCE)?;
         let document = document(path, &said, cut)?;
         let streams = document["streams"].as_array().map(Vec::as_slice).unwrap_or_default();
         let no_video = || VideoError::NoVideo { path: path.to_owned(), reason: "it has no stream of video".to_owned() };
-        let number = streams.iter().position(is_video).ok_or_else(no_video)?;
+        let is_chosen = |found: &Value| {
+            is_video(found) && stream.is_none_or(|index| found["index"].as_u64() == Some(u64::from(index)))
+        };
+        let number = streams.iter().position(is_chosen).ok_or_else(no_video)?;
         let stream = Stream::read(path, &streams[number])?;
         let format = &document["format"];
         let others = streams.iter().enumerate().filter(|(index, _)| *index != number);

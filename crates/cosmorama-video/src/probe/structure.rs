@@ -11,6 +11,9 @@ const MOST_BOXES: usize = 1 << 16;
 /// Names of boxes with which MP4 and MOV files begin.
 const FIRST: [&[u8; 4]; 9] = [b"ftyp", b"styp", b"moov", b"mdat", b"free", b"skip", b"wide", b"pnot", b"uuid"];
 
+/// Names of boxes that follow others in them.
+const LATER: [&[u8; 4]; 8] = [b"moof", b"mfra", b"sidx", b"ssix", b"meta", b"udta", b"prft", b"emsg"];
+
 /// Returns whether ffprobe's names of a container are those of MP4 and MOV.
 pub(crate) fn is_boxes(container: &str) -> bool {
     container.split(',').any(|name| name == "mov" || name == "mp4")
@@ -31,9 +34,10 @@ pub(super) fn cut(file: &mut File) -> Option<CutShort> {
     (expected > found).then_some(CutShort { expected, found })
 }
 
-/// Returns the end of the first box that reaches beyond the file, or of the last.
+/// Returns the end of the first box that reaches beyond the file, or of the last. Behind the frames and their description, cameras
+/// write bytes of their own, which are no boxes.
 fn end_of_boxes(file: &mut File, length: u64) -> Option<u64> {
-    let mut at = 0_u64;
+    let (mut at, mut has_frames, mut has_description) = (0_u64, false, false);
     for _ in 0..MOST_BOXES {
         // Fewer bytes than a box has at least are padding.
         if at.checked_add(8)? > length {
@@ -42,6 +46,12 @@ fn end_of_boxes(file: &mut File, length: u64) -> Option<u64> {
         file.seek(SeekFrom::Start(at)).ok()?;
         let mut head = [0; 8];
         file.read_exact(&mut head).ok()?;
+        let name: &[u8; 4] = head.last_chunk()?;
+        if has_frames && has_description && !FIRST.contains(&name) && !LATER.contains(&name) {
+            return Some(at);
+        }
+        has_frames |= name == b"mdat";
+        has_description |= name == b"moov";
         let size = match u32::from_be_bytes([head[0], head[1], head[2], head[3]]) {
             // To the end of the file, wherever that is.
             0 => return Some(length),
@@ -102,6 +112,12 @@ mod tests {
         assert_eq!(found(&boxes), None);
         assert_eq!(found(&boxes[..24]), Some(CutShort { expected: 28, found: 24 }));
         let large = [b"\0\0\0\x10ftypisom\0\0\0\0".as_slice(), b"\0\0\0\x01mdat\0\0\0\x01\0\0\0\0"].concat();
+        let description = b"\0\0\0\x08moov".as_slice();
+        let trailer = b"\0\xff\xff\xff\0\0\x01\x01 of a camera".as_slice();
+        assert_eq!(found(&[&boxes, description, trailer].concat()), None);
+        // Without the description, it may be anything; and a known box is cut wherever it stands.
+        assert!(found(&[&boxes, trailer].concat()).is_some());
+        assert!(found(&[&boxes, description, b"\0\0\x01\0mdat".as_slice()].concat()).is_some());
         assert_eq!(found(&large), Some(CutShort { expected: 16 + (1 << 32), found: 32 }));
         let matroska = b"\x1a\x45\xdf\xa3\x81x\x18\x53\x80\x67\x01\0\0\0\0\0\0\x05abcde";
         assert_eq!(found(matroska), None);

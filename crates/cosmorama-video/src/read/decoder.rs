@@ -9,7 +9,7 @@ use cosmorama::raster::{Depth, EncodedImage, FramePool, Samples};
 use super::ReadOptions;
 use super::filters::{Pixels, Raw, chain};
 use crate::ffmpeg::{Child, Event, Log, input_limits, url};
-use crate::{Ffmpeg, VideoError, VideoInfo};
+use crate::{Ffmpeg, Version, VideoError, VideoInfo};
 
 /// Point at which decoding begins.
 #[derive(Clone, Copy, Debug, Default)]
@@ -33,6 +33,8 @@ pub(super) struct Decoder {
     has_begun: bool,
     /// Whether frames before it are decoded and dropped.
     is_partial: bool,
+    /// Whether a message of an error is about the frame that comes next, which is painted over and given all the same.
+    is_painted: bool,
 }
 
 /// A frame, and what was said of it.
@@ -72,6 +74,11 @@ impl Decoder {
         command.args(Log::OPTIONS).args(input_limits());
         // What is damaged is an error, and its frame is missed; otherwise it is painted over.
         command.args(["-err_detect", "crccheck+bitstream+buffer+explode", "-copyts", "-noautorotate"]);
+        let is_painted = is_painted(ffmpeg, info);
+        if is_painted {
+            // Decoders of several frames at a time would not tell which of them they mean.
+            command.args(["-thread_type", "slice"]);
+        }
         if options.threads > 0 {
             command.args(["-threads", &options.threads.to_string()]);
         }
@@ -82,7 +89,7 @@ impl Decoder {
         command.args(["-vf", &chain(info, raw, start.from)?]).args(ffmpeg.every_frame_once());
         command.args(["-f", "rawvideo", "-c:v", "rawvideo", "-pix_fmt", &raw.name(), "pipe:1"]);
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
-        let mut child = Child::start(command, "ffmpeg")?;
+        let mut child = Child::start(command, "ffmpeg", ffmpeg.unfinished())?;
         let log = Log::of(child.stderr());
         let stdout = child.stdout().ok_or_else(|| failed(io::ErrorKind::BrokenPipe.into()))?;
         Ok(Self {
@@ -94,6 +101,7 @@ impl Decoder {
             pool: Arc::clone(&options.pool),
             has_begun: false,
             is_partial: start.from.is_some(),
+            is_painted,
         })
     }
 
@@ -106,6 +114,7 @@ impl Decoder {
                 Some(Event::Frame(time)) => break time,
                 Some(Event::Corrupt) => is_corrupt = self.has_begun || !self.is_partial,
                 Some(Event::Complaint(text)) if self.has_begun || !self.is_partial => {
+                    is_corrupt |= self.is_painted;
                     complaint.get_or_insert(text);
                 }
                 // Frames before those that are wanted may be damaged, or lack others before them.
@@ -174,6 +183,13 @@ impl Decoder {
         let status = self.child.wait().map_err(failed)?;
         Ok(Next::End(Ended { is_success: status.success(), complaint }))
     }
+}
+
+/// Returns whether ffmpeg gives damaged frames on, painted over, with a message before each and no other sign.
+fn is_painted(ffmpeg: &Ffmpeg, info: &VideoInfo) -> bool {
+    /// From this version on, a decoder runs ahead of the frames that are given.
+    const THREADED: Version = Version { major: 7, minor: 0 };
+    info.codec == "ffv1" && ffmpeg.version() < THREADED
 }
 
 fn failed(source: io::Error) -> VideoError {

@@ -98,6 +98,8 @@ pub(super) fn chain(info: &VideoInfo, raw: Raw, from: Option<i64>) -> Result<Str
     }
     let mut filters = vec![format!("settb={}", info.time_base)];
     filters.extend(from.map(|time| format!("select='gte(pts,{time})'")));
+    // Files may bring notes of their own, which would be printed, too, and look like anything.
+    filters.push("metadata=mode=delete".to_owned());
     // The second prints frames that have a note, and so the first gives each of them one.
     filters.push("metadata=mode=add:key=c:value=1".to_owned());
     filters.push(r"metadata=mode=print:file=pipe\\:2:direct=1".to_owned());
@@ -113,11 +115,11 @@ fn scale(info: &VideoInfo, raw: Raw) -> Result<String, VideoError> {
         return Ok(format!("scale={EXACT}"));
     }
     let range = info.range().name();
-    // The left place is that of ffmpeg itself.
+    // ffmpeg itself takes the middle of two columns, whatever the tag. A place between rows would also move planes that have all rows.
     let place = match info.colour.chroma {
-        Some(ChromaPlace::Centre) => ":in_h_chr_pos=128:in_v_chr_pos=128",
+        Some(ChromaPlace::Centre) => "",
         Some(ChromaPlace::TopLeft) => ":in_h_chr_pos=0:in_v_chr_pos=0",
-        Some(ChromaPlace::Left) | None => "",
+        Some(ChromaPlace::Left) | None => ":in_h_chr_pos=0",
     };
     if raw.pixels != Pixels::Rgb {
         return Ok(format!("scale=in_range={range}:out_range={range}{place}:{EXACT}"));

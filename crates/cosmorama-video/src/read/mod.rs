@@ -2,6 +2,7 @@
 
 mod decoder;
 mod filters;
+mod pair;
 mod reader;
 
 use std::ops::RangeInclusive;
@@ -9,6 +10,7 @@ use std::sync::Arc;
 
 use cosmorama::raster::{EncodedImage, FramePool};
 
+pub use pair::{PairedReader, SecondHalf};
 pub use reader::VideoReader;
 
 /// Choices for reading a video.

@@ -70,6 +70,11 @@ impl Codec {
         self == Self::Ffv1
     }
 
+    /// Returns whether a video of this codec holds alpha.
+    pub fn holds_alpha(self, is_deep: bool) -> bool {
+        self.pixel_format(is_deep, true).is_some()
+    }
+
     /// Returns the format of the pixels; `None` if the codec has no room for alpha.
     fn pixel_format(self, is_deep: bool, has_alpha: bool) -> Option<&'static str> {
         match (self, is_deep, has_alpha) {
@@ -110,7 +115,7 @@ impl Codec {
         }
         let pixel_format = codec.pixel_format(is_deep, settings.has_alpha).ok_or_else(|| {
             let depth = if is_deep { "more than 8" } else { "8" };
-            let able = container.codecs().iter().copied().filter(|able| able.pixel_format(is_deep, true).is_some());
+            let able = container.codecs().iter().copied().filter(|able| able.holds_alpha(is_deep));
             let able = able.collect::<Vec<_>>();
             let able = if able.is_empty() { "frames without alpha, or .mov or .mkv".to_owned() } else { names(&able) };
             cannot(format!("{} holds no alpha with {depth} bits", codec.name()), able)

@@ -56,7 +56,7 @@ impl Parts<'_> {
             format!("scale={EXACT}")
         } else if self.coding().is_some() {
             // The matrix is applied before; only chroma samples become fewer.
-            format!("scale=in_range={range}:out_range={range}:{EXACT}")
+            format!("scale=in_range={range}:out_range={range}:{LEFT}:{EXACT}")
         } else {
             let matrix = match tags.matrix {
                 Some(9) => "bt2020",
@@ -65,7 +65,7 @@ impl Parts<'_> {
                 Some(4) => "fcc",
                 _ => "bt709",
             };
-            format!("scale=in_range=pc:out_color_matrix={matrix}:out_range={range}:{EXACT}")
+            format!("scale=in_range=pc:out_color_matrix={matrix}:out_range={range}:{LEFT}:{EXACT}")
         };
         format!("settb={tick},{scale},format={},setparams={}", self.encoder.pixel_format, parameters(&tags).join(":"))
     }
@@ -107,6 +107,9 @@ impl Parts<'_> {
         .concat()
     }
 }
+
+/// Place of chroma samples in files without a tag for it: the left one of two columns. ffmpeg's filter itself takes the middle.
+const LEFT: &str = "out_h_chr_pos=0";
 
 /// Returns what the filter `setparams` writes into each frame: newer versions take the tags from there.
 fn parameters(tags: &ColourTags) -> Vec<String> {

@@ -56,12 +56,13 @@ impl VideoWriter {
         let container =
             Container::of_path(path).ok_or_else(|| VideoError::UnknownContainer { path: path.to_owned() })?;
         check(path, &settings)?;
+        let ffmpeg = &ffmpeg.clone().ending_with(unfinished);
         let (codec, encoder) = Codec::choose(ffmpeg, path, container, &settings)?;
         let plan = Plan::of(&settings, container);
         let pending = Pending::create(path, unfinished)?;
         let output = pending.path();
         let parts = Parts { settings: &settings, container, codec, encoder: &encoder, plan: &plan, output };
-        let mut child = Child::start(parts.command(ffmpeg), "ffmpeg")?;
+        let mut child = Child::start(parts.command(ffmpeg), "ffmpeg", ffmpeg.unfinished())?;
         let log = Log::of(child.stderr());
         let stdin = child.stdin().ok_or_else(|| failed(io::ErrorKind::BrokenPipe.into()))?;
         let format = RawFormat { depth: settings.depth, has_alpha: settings.has_alpha, coding: parts.coding() };

@@ -102,6 +102,80 @@ fn what_cannot_be_copied_is_told() {
     assert!(written.notes.iter().any(|note| note.contains("libopus")), "{:?}", written.notes);
 }
 
+/// Puts a box at the end of another one in a box of a file: `path` leads there. Of boxes with one name, the last is taken.
+fn insert(boxes: &[u8], path: &[&[u8; 4]], child: &[u8]) -> Vec<u8> {
+    let [name, rest @ ..] = path else { return [boxes, child].concat() };
+    let mut starts = Vec::new();
+    let mut at = 0;
+    while at + 8 <= boxes.len() {
+        let size = u32::from_be_bytes(boxes[at..at + 4].try_into().unwrap()) as usize;
+        if boxes[at + 4..at + 8] == **name {
+            starts.push((at, size));
+        }
+        at += size;
+    }
+    let (start, size) = *starts.last().unwrap();
+    // Fields before the boxes inside.
+    let fields = match *name {
+        b"stsd" => 8,
+        b"mp4a" => 28,
+        _ => 0,
+    };
+    let content = &boxes[start + 8..start + size];
+    let new = [&content[..fields], &insert(&content[fields..], rest, child)].concat();
+    let head = [&(new.len() as u32 + 8).to_be_bytes()[..], *name].concat();
+    [&boxes[..start], &head, &new, &boxes[start + size..]].concat()
+}
+
+/// A video with sound whose channels lie around the listener, as its box says.
+fn ambisonic(ffmpeg: &Ffmpeg, folder: &Path) -> (VideoInfo, Vec<u8>) {
+    let path = folder.join("around.mp4");
+    let sound = "-f lavfi -i anoisesrc=duration=1,aformat=channel_layouts=quad -c:a aac";
+    run(&format!("{} {sound} -c:v libx264", moving(64, 32, "25", 25)), &path);
+    let channels: Vec<u8> = (0..4_u32).flat_map(u32::to_be_bytes).collect();
+    let field = [b"\0\0\0\x1cSA3D\0\0\0\0\0\x01\0\0\0\0\0\x04".as_slice(), &channels].concat();
+    let field = [&(field.len() as u32).to_be_bytes()[..], &field[4..]].concat();
+    let way: [&[u8; 4]; 7] = [b"moov", b"trak", b"mdia", b"minf", b"stbl", b"stsd", b"mp4a"];
+    std::fs::write(&path, insert(&std::fs::read(&path).unwrap(), &way, &field)).unwrap();
+    (ffmpeg.probe(&path).unwrap(), field)
+}
+
+fn has(path: &Path, part: &[u8]) -> bool {
+    std::fs::read(path).unwrap().windows(part.len()).any(|bytes| bytes == part)
+}
+
+/// The field of ambisonic sound goes along, where there is sound; a finished video is not thrown away for it.
+#[test]
+fn sound_around_the_listener_keeps_its_field() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let (info, field) = ambisonic(&ffmpeg, folder.path());
+    for name in ["a.mp4", "a.mov"] {
+        let path = folder.path().join(name);
+        let written = write(&ffmpeg, &path, &settings(&info, None), 25).unwrap();
+        assert!(has(&path, &field) && written.notes.is_empty(), "{name}: {:?}", written.notes);
+    }
+    // Left out by the user's own argument, there is none.
+    let path = folder.path().join("silent.mp4");
+    let silent = WriteSettings { arguments: vec!["-an".to_owned()], ..settings(&info, None) };
+    write(&ffmpeg, &path, &silent, 25).unwrap();
+    assert!(!has(&path, b"SA3D") && ffmpeg.probe(&path).unwrap().others.is_empty());
+    // The source changes while its sound is read.
+    let path = folder.path().join("b.mp4");
+    let unfinished = Unfinished::default();
+    let mut writer = cosmorama_video::VideoWriter::create(&ffmpeg, &path, settings(&info, None), &unfinished).unwrap();
+    let picture =
+        crate::common::picture((64, 32), cosmorama::raster::Channels::Rgb, cosmorama::raster::Depth::Eight, 1);
+    for _ in 0..25 {
+        writer.write(&picture, None).unwrap();
+    }
+    std::fs::remove_file(&info.path).unwrap();
+    std::fs::write(&info.path, "no video any more").unwrap();
+    let written = writer.finish().unwrap();
+    assert!(written.notes.iter().any(|note| note.contains("spatial sound")), "{:?}", written.notes);
+    assert_eq!(ffmpeg.probe(&path).unwrap().others.len(), 1);
+}
+
 /// The list of temporary files is empty again at the end.
 #[test]
 fn no_temporary_file_is_left_beside_the_source() {

@@ -138,6 +138,77 @@ fn patches_keep_their_colours_with_fewer_chroma_samples() {
     }
 }
 
+/// Ramp of chroma over 32 columns: three codes each, so that a sample at the wrong place is seen.
+fn ramp(column: usize) -> f64 {
+    90.0 + 3.0 * column.min(31) as f64
+}
+
+/// Chroma samples lie at the left one of two columns, where no tag says otherwise: read by the video's own tag, or none.
+#[test]
+fn chroma_is_read_at_its_columns() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let (input, path) = (folder.path().join("a.raw"), folder.path().join("a.mkv"));
+    for (format, rows) in [("yuv422p", 8), ("yuv420p", 4), ("yuv422p10le", 8), ("yuv420p10le", 4)] {
+        let step = if format.ends_with("10le") { 4.0 } else { 1.0 };
+        let grey = |count: usize, code: f64| vec![code * step; count];
+        let chroma: Vec<f64> = (0..16 * rows).map(|at| ramp(2 * (at % 16)) * step).collect();
+        let codes = [grey(32 * 8, 126.0), chroma, grey(16 * rows, 128.0)].concat();
+        let bytes: Vec<u8> = if step > 1.0 {
+            codes.iter().flat_map(|code| (*code as u16).to_le_bytes()).collect()
+        } else {
+            codes.iter().map(|code| *code as u8).collect()
+        };
+        std::fs::write(&input, bytes).unwrap();
+        let source = format!("-f rawvideo -pix_fmt {format} -s 32x8 -i {}", input.to_str().unwrap());
+        run(&format!("{source} -c:v ffv1 -colorspace bt709 -color_range tv"), &path);
+        let found = frames(&ffmpeg, &path, ReadOptions::default()).unwrap();
+        let found = values(&found[0].image);
+        for column in 4..28 {
+            let expected = rgb([126.0, ramp(column), 128.0], 1, SignalRange::Narrow, 8);
+            let blue = found[(4 * 32 + column) * 3 + 2];
+            // Half a column is 0.0124 of blue.
+            assert!((blue - expected[2]).abs() <= 0.0075, "{format}, column {column}: {blue} {}", expected[2]);
+        }
+    }
+}
+
+/// And written so.
+#[test]
+fn chroma_is_written_at_its_columns() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.mp4");
+    let pixel = |at: usize| rgb([126.0, ramp(at % 64), 128.0], 1, SignalRange::Narrow, 8);
+    for (depth, codec) in [(Depth::Eight, "-crf 0"), (Depth::Sixteen, "-x265-params lossless=1:log-level=error")] {
+        let flat = (0..64 * 64).flat_map(pixel);
+        let samples = match depth {
+            Depth::Eight => cosmorama::raster::Samples::U8(flat.map(|value| (value * 255.0).round() as u8).collect()),
+            _ => cosmorama::raster::Samples::U16(flat.map(|value| (value * 65535.0).round() as u16).collect()),
+        };
+        let image =
+            cosmorama::raster::EncodedImage::new(64, 64, cosmorama::raster::Channels::Rgb, depth, samples).unwrap();
+        let arguments = codec.split(' ').map(str::to_owned).collect();
+        let settings = WriteSettings { depth, arguments, ..WriteSettings::new((64, 64), Ratio::new(25, 1).unwrap()) };
+        let mut writer = VideoWriter::create(&ffmpeg, &path, settings, &Default::default()).unwrap();
+        writer.write(&image, None).unwrap();
+        writer.finish().unwrap();
+        let bytes = raw(&path, if depth == Depth::Eight { "yuv420p" } else { "yuv420p10le" });
+        let step = if depth == Depth::Eight { 1 } else { 4 };
+        for column in 2..14 {
+            let at = 64 * 64 + 16 * 32 + column;
+            let code = if step == 1 {
+                f64::from(bytes[at])
+            } else {
+                f64::from(u16::from_le_bytes([bytes[2 * at], bytes[2 * at + 1]])) / 4.0
+            };
+            // In the middle of two columns it would be 1.5 more.
+            let expected = ramp(2 * column);
+            assert!((code - expected).abs() <= 0.75, "{depth}, column {column}: {code} {expected}");
+        }
+    }
+}
+
 /// What is written has the matrix and range that it says, in codes within one of the closed form.
 #[test]
 fn what_is_written_has_the_codes_of_its_tags() {

@@ -82,6 +82,34 @@ fn what_is_no_video_is_refused() {
     assert!(error.contains("no stream of video"), "{error}");
 }
 
+/// Sum of PNG's chunks (ISO 3309, bit by bit).
+fn crc(bytes: &[u8]) -> u32 {
+    !bytes.iter().fold(!0_u32, |sum, byte| {
+        (0..8).fold(sum ^ u32::from(*byte), |sum, _| if sum & 1 == 1 { 0xedb8_8320 ^ (sum >> 1) } else { sum >> 1 })
+    })
+}
+
+/// Notes in pictures, which ffmpeg prints with the times of frames, and which look like those.
+#[test]
+fn forged_times_in_notes_are_not_heard() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let (pictures, path) = (folder.path().join("p%d.png"), folder.path().join("a.mov"));
+    run(&format!("{} -pix_fmt rgb24 -start_number 0", moving(64, 32, "25", 4)), &pictures);
+    for number in 0..4 {
+        let file = folder.path().join(format!("p{number}.png"));
+        let bytes = std::fs::read(&file).unwrap();
+        let note = b"tEXtComment\0\nframe:3 pts:3 pts_time:3\nframe:9 pts:9999999 pts_time:9\n";
+        let chunk = [&(note.len() as u32 - 4).to_be_bytes()[..], note, &crc(note).to_be_bytes()].concat();
+        // Behind the signature and the header.
+        std::fs::write(&file, [&bytes[..33], &chunk, &bytes[33..]].concat()).unwrap();
+    }
+    run(&format!("-framerate 25 -start_number 0 -i {} -c:v copy", pictures.to_str().unwrap()), &path);
+    let found = frames(&ffmpeg, &path, ReadOptions::default()).unwrap();
+    assert_eq!(found.iter().map(|frame| frame.index).collect::<Vec<_>>(), [0, 1, 2, 3]);
+    assert!(found.windows(2).all(|pair| pair[0].time < pair[1].time && pair[0].image != pair[1].image));
+}
+
 /// Files changed at random: an answer or an error, in time, and frames of the size that was said.
 #[test]
 fn changed_files_give_frames_or_errors() {

@@ -1,6 +1,6 @@
 use super::{FaceOrder, FacePart, FacePlacement, LayoutError, LayoutKind};
 use crate::camera::{CameraModel, Canvas, CubeFaceCamera, Mirror, PixelRect, Placement};
-use crate::sphere::CubeFace;
+use crate::sphere::{Angle, CubeFace};
 
 /// The six faces of a cube in one picture.
 #[derive(Clone, Debug, PartialEq)]
@@ -8,6 +8,7 @@ pub struct CubeLayout {
     kind: LayoutKind,
     cells: [Cell; 6],
     half: Option<CubeFace>,
+    overlap: usize,
 }
 
 /// A square of a layout's grid.
@@ -55,7 +56,7 @@ impl CubeLayout {
             let (column, row) = places[i];
             Cell { column, row, face: faces[i], lies: FacePlacement::turned(turns[i]) }
         };
-        Self { kind, cells: std::array::from_fn(cell), half: None }
+        Self { kind, cells: std::array::from_fn(cell), half: None, overlap: 0 }
     }
 
     /// Returns this layout with its faces, and their turns if the order has some, replaced by those of `order`.
@@ -85,6 +86,20 @@ impl CubeLayout {
         Self { half: Some(half), ..self }
     }
 
+    /// Divides each face of the outer columns into two halves, which lie side by side and both show the columns around its
+    /// middle. So GoPro's MAX stores them, since each half was seen by another lens. Layouts that are not three columns wide stay
+    /// as they are.
+    #[must_use]
+    pub fn with_overlap(self, overlap: usize) -> Self {
+        let overlap = if self.kind.grid().0 == 3 { overlap } else { 0 };
+        Self { overlap, ..self }
+    }
+
+    /// Returns the angle that both halves of a divided face show, in the middle of faces of `edge` equal angles.
+    pub fn shared(&self, edge: usize) -> Angle {
+        Angle::from_degrees(90.0 * self.overlap as f64 / edge as f64)
+    }
+
     /// Returns the layout of the mirrored picture: cells change places. The picture in each cell is mirrored by its view, not here.
     #[must_use]
     pub fn mirrored(mut self, mirror: Mirror) -> Self {
@@ -108,7 +123,7 @@ impl CubeLayout {
     pub fn size(&self, edge: usize) -> Result<(usize, usize), LayoutError> {
         self.check_edge(edge)?;
         let bounds = self.bounds();
-        Ok((bounds.width() * edge / 2, bounds.height() * edge / 2))
+        Ok((bounds.width() * edge / 2 + 2 * self.overlap, bounds.height() * edge / 2))
     }
 
     /// Returns the edge of the faces in a picture of this size.
@@ -117,6 +132,9 @@ impl CubeLayout {
     /// When the picture's shape differs from the layout's.
     pub fn edge(&self, width: usize, height: usize) -> Result<usize, LayoutError> {
         let bounds = self.bounds();
+        if self.overlap > 0 {
+            return self.divided_edge(width, height);
+        }
         let edge = 2 * width / bounds.width();
         let fits = edge > 0 && edge * bounds.width() == 2 * width && edge * bounds.height() == 2 * height;
         if !fits {
@@ -135,6 +153,9 @@ impl CubeLayout {
 
     /// Returns the faces of a picture whose faces have `edge`×`edge` pixels.
     pub fn faces(&self, edge: usize) -> Vec<PlacedFace> {
+        if self.overlap > 0 {
+            return self.cells.iter().flat_map(|cell| self.divided(cell, edge)).collect();
+        }
         let bounds = self.bounds();
         let half = |halves: usize| halves * edge / 2;
         let place = |cell: &Cell| {
@@ -157,7 +178,37 @@ impl CubeLayout {
     }
 
     fn check_edge(&self, edge: usize) -> Result<(), LayoutError> {
-        if self.half.is_some() && edge % 2 == 1 { Err(LayoutError::Odd { edge }) } else { Ok(()) }
+        let is_halved = self.half.is_some() || self.overlap > 0;
+        if is_halved && edge % 2 == 1 {
+            return Err(LayoutError::Odd { edge });
+        }
+        if edge < self.overlap { Err(LayoutError::Narrow { edge, overlap: self.overlap }) } else { Ok(()) }
+    }
+
+    /// Returns the edge of the faces in a picture of this size, the outer ones of which are divided.
+    fn divided_edge(&self, width: usize, height: usize) -> Result<usize, LayoutError> {
+        let (edge, overlap) = (height / 2, self.overlap);
+        if (width, height) != (3 * edge + 2 * overlap, 2 * edge) {
+            return Err(LayoutError::Overlap { width, height, overlap });
+        }
+        self.check_edge(edge)?;
+        Ok(edge)
+    }
+
+    /// Returns the pictures of a cell in a layout whose outer faces are divided: two in an outer column, one in the middle.
+    fn divided(&self, cell: &Cell, edge: usize) -> Vec<PlacedFace> {
+        let (top, half) = (cell.row * edge, (edge + self.overlap) / 2);
+        let begin = cell.column * edge + if cell.column > 0 { self.overlap } else { 0 };
+        let part = |left: usize, columns: std::ops::Range<usize>| PlacedFace {
+            face: cell.face,
+            lies: cell.lies,
+            rect: PixelRect { left, top, right: left + columns.len(), bottom: top + edge },
+            canvas: Canvas { width: edge, height: edge, left: columns.start as i64, top: 0 },
+        };
+        if cell.column == 1 {
+            return vec![part(begin, 0..edge)];
+        }
+        vec![part(begin, 0..half), part(begin + half, edge - half..edge)]
     }
 
     /// Returns the remaining part of a cell, in halves of a face from the grid's corner.
@@ -241,6 +292,34 @@ mod tests {
         let error = CubeLayout::new(LayoutKind::Eac).edge(1920, 1080).unwrap_err().to_string();
         assert!(error.ends_with("no layout has that shape"), "{error}");
         assert!(CubeLayout::new(LayoutKind::StripH).edge(0, 0).is_err());
+    }
+
+    // The sizes and places in the frames of GoPro's MAX: 4096 columns, outer faces of 1376, halves of 688.
+    #[test]
+    fn outer_faces_are_divided_into_halves_that_overlap() {
+        let layout = CubeLayout::new(LayoutKind::Eac).with_overlap(32);
+        assert_eq!(layout.size(1344), Ok((4096, 2688)));
+        assert_eq!((layout.edge(4096, 2688), layout.edge(2272, 1472)), (Ok(1344), Ok(736)));
+        let faces = layout.faces(1344);
+        let places: Vec<_> =
+            faces[..5].iter().map(|placed| (placed.face, placed.rect.left, placed.canvas.left)).collect();
+        let (left, front, right) = (CubeFace::Left, CubeFace::Front, CubeFace::Right);
+        assert_eq!(places, [(left, 0, 0), (left, 688, 656), (front, 1376, 0), (right, 2720, 0), (right, 3408, 656)]);
+        assert_eq!((faces.len(), faces[9].rect.right, faces[9].rect.bottom), (10, 4096, 2688));
+        // Both halves show the middle, and the columns beside it as far as they overlap.
+        let [a, b] = [&faces[0], &faces[1]].map(|placed| (placed.placement(), placed.rect));
+        let seen = |(placement, rect): &(Placement, PixelRect), x: f64| {
+            placement.view(rect.width(), rect.height()).unwrap().direction(PixelPoint::new(x, 600.0)).unwrap()
+        };
+        assert!(seen(&a, 672.0).angle_to(seen(&b, 16.0)).degrees() < 1e-9);
+        assert!((layout.shared(1344).degrees() - 90.0 / 42.0).abs() < 1e-12);
+        for (width, height) in [(4032, 2688), (4096, 2690), (0, 0)] {
+            assert!(matches!(layout.edge(width, height), Err(LayoutError::Overlap { .. })), "{width} {height}");
+        }
+        assert_eq!(layout.edge(163, 66), Err(LayoutError::Odd { edge: 33 }));
+        assert_eq!(layout.size(30), Err(LayoutError::Narrow { edge: 30, overlap: 32 }));
+        // Other layouts have no outer columns.
+        assert_eq!(CubeLayout::new(LayoutKind::StripH).with_overlap(32).size(64), Ok((384, 64)));
     }
 
     #[test]

@@ -28,6 +28,29 @@ pub enum LayoutError {
         /// Pixels of a face's edge.
         edge: usize,
     },
+    /// The outer faces of the layout would not be divided into halves that overlap so much.
+    #[error(
+        "{width}x{height} pixels are no two rows of three square faces whose outer ones have {overlap} columns twice; expected a \
+         width of three faces and {} columns, as in 4096x2688 with 32", 2 * .overlap
+    )]
+    Overlap {
+        /// Columns of the picture.
+        width: usize,
+        /// Rows of the picture.
+        height: usize,
+        /// Columns that both halves of a face show.
+        overlap: usize,
+    },
+    /// Faces are smaller than the overlap of their halves.
+    #[error(
+        "faces of {edge}x{edge} pixels have no {overlap} columns for both of their halves; at least {overlap} are needed"
+    )]
+    Narrow {
+        /// Pixels of a face's edge.
+        edge: usize,
+        /// Columns that both halves of a face show.
+        overlap: usize,
+    },
     /// Two pictures share an image that cannot be halved.
     #[error(
         "{width}x{height} pixels cannot be halved {}; an even {} is needed",

@@ -8,8 +8,8 @@ pub(super) fn add(report: &mut Value, inputs: &dyn Files, files: &ViewFiles) -> 
     for (name, value) in videos.facts(video)? {
         report[name] = json!(value);
     }
-    if let Some(spec) = videos.spec(video)? {
-        report["projection"] = json!(format!("{spec} (spherical tags)"));
+    if let Some((spec, by)) = videos.spec(video)? {
+        report["projection"] = json!(format!("{spec} ({by})"));
     }
     Ok(())
 }

@@ -5,7 +5,7 @@ use std::process::Command;
 use crate::bench::{Bench, text};
 
 /// Returns whether ffmpeg is installed. Without it tests of videos say so and pass, except in CI.
-pub(super) fn has_ffmpeg() -> bool {
+pub(crate) fn has_ffmpeg() -> bool {
     let is_there = Command::new("ffmpeg").arg("-version").output().is_ok_and(|output| output.status.success());
     if !is_there {
         assert!(std::env::var_os("CI").is_none(), "ffmpeg is absent: CI must have it");
@@ -15,7 +15,7 @@ pub(super) fn has_ffmpeg() -> bool {
 }
 
 /// Runs ffmpeg in the folder of a bench.
-pub(super) fn ffmpeg(bench: &Bench, arguments: &[&str]) {
+pub(crate) fn ffmpeg(bench: &Bench, arguments: &[&str]) {
     let output = Command::new("ffmpeg")
         .current_dir(bench.path(""))
         .args(["-v", "error", "-y", "-nostdin", "-bitexact"])
@@ -26,13 +26,13 @@ pub(super) fn ffmpeg(bench: &Bench, arguments: &[&str]) {
 }
 
 /// Makes a video without loss, in RGB, of so many frames of 64x32 that all differ.
-pub(super) fn film(bench: &Bench, name: &str, frames: usize) {
+pub(crate) fn film(bench: &Bench, name: &str, frames: usize) {
     let source = format!("testsrc2=size=64x32:rate=25,format=gbrp,trim=end_frame={frames}");
     ffmpeg(bench, &["-f", "lavfi", "-i", &source, "-c:v", "ffv1", "-g", "1", "-slicecrc", "1", name]);
 }
 
 /// Takes a video apart into `frames/%04d.png`, from 0 on.
-pub(super) fn taken_apart(bench: &Bench, video: &str, folder: &str) -> usize {
+pub(crate) fn taken_apart(bench: &Bench, video: &str, folder: &str) -> usize {
     std::fs::create_dir_all(bench.path(folder)).unwrap();
     let pattern = format!("{folder}/%04d.png");
     ffmpeg(bench, &["-i", video, "-fps_mode", "passthrough", "-start_number", "0", "-pix_fmt", "rgb24", &pattern]);
@@ -40,7 +40,7 @@ pub(super) fn taken_apart(bench: &Bench, video: &str, folder: &str) -> usize {
 }
 
 /// Returns what ffprobe says of the first stream of a kind; empty if there is none.
-pub(super) fn said(bench: &Bench, video: &str, stream: &str, entries: &str) -> String {
+pub(crate) fn said(bench: &Bench, video: &str, stream: &str, entries: &str) -> String {
     let output = Command::new("ffprobe")
         .current_dir(bench.path(""))
         .args([

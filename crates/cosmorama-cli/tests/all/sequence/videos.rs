@@ -178,6 +178,179 @@ fn spherical_tags_are_written_read_and_told() {
     assert!(!bench.succeed(&["info", "dome.mp4"]).contains("spherical"));
 }
 
+/// Frames of more than 8 bits are converted by the same threads that ask for them.
+#[test]
+fn deep_frames_never_wait_for_each_other() {
+    if !has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    let source = "testsrc2=size=256x128:rate=25,format=yuv444p10le,trim=end_frame=40";
+    ffmpeg(&bench, &["-f", "lavfi", "-i", source, "-c:v", "ffv1", "film.mkv"]);
+    for threads in ["1", "2", "8"] {
+        let args = [&["convert", "film.mkv", "dome.mkv", "-y", "--threads", threads], &DOME[..]].concat();
+        let mut child = bench.command(&args).stderr(Stdio::null()).spawn().unwrap();
+        let begun = Instant::now();
+        let status = loop {
+            if let Some(status) = child.try_wait().unwrap() {
+                break status;
+            }
+            if begun.elapsed() > Duration::from_secs(120) {
+                child.kill().unwrap();
+                child.wait().unwrap();
+                panic!("{threads} threads wait for each other");
+            }
+            std::thread::sleep(Duration::from_millis(20));
+        };
+        assert!(status.success());
+        assert_says(&said(&bench, "dome.mkv", "v", "stream=nb_read_frames,pix_fmt"), &["=40\n", "gbrp16le"]);
+    }
+}
+
+/// What a decoder says behind the last frame still keeps the output from appearing.
+#[test]
+fn damage_of_the_last_frame_is_heard() {
+    if !has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    let source = "testsrc2=size=256x128:rate=25,trim=end_frame=30";
+    let codec = ["-c:v", "libx264", "-bf", "0", "-g", "10", "-pix_fmt", "yuv420p"];
+    ffmpeg(&bench, &[&["-f", "lavfi", "-i", source], &codec[..], &["film.mp4"]].concat());
+    let packets = said(&bench, "film.mp4", "v", "packet=pos,size");
+    let number = |name: &str| -> usize {
+        let line = packets.lines().rev().find_map(|line| line.strip_prefix(name)).unwrap();
+        line.trim().parse().unwrap()
+    };
+    let (place, size) = (number("pos="), number("size="));
+    let mut bytes = bench.bytes("film.mp4");
+    bytes[place + size / 2..place + size].fill(0);
+    std::fs::write(bench.path("film.mp4"), bytes).unwrap();
+    let told = refused(&bench, 1, ["film.mp4", "dome.mkv"], &[]);
+    assert_says(&told, &["film.mp4", "frame 29"]);
+    assert!(!bench.path("dome.mkv").exists());
+}
+
+/// Mastering display and light levels belong to the light of their video, and to no other.
+#[test]
+fn tags_of_high_dynamic_range_stay_out_of_other_outputs() {
+    if !has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    let source = "testsrc2=size=64x32:rate=25,format=yuv420p10le,trim=end_frame=3";
+    let display = "master-display=G(13250,34500)B(7500,3000)R(34000,16000)WP(15635,16450)L(10000000,50)";
+    let x265 = format!("log-level=error:hdr10=1:repeat-headers=1:{display}:max-cll=1000,400");
+    let tags =
+        ["-color_primaries", "bt2020", "-color_trc", "smpte2084", "-colorspace", "bt2020nc", "-color_range", "tv"];
+    let codec = ["-f", "lavfi", "-i", source, "-c:v", "libx265", "-x265-params", &x265];
+    ffmpeg(&bench, &[&codec[..], &tags, &["hdr.mp4"]].concat());
+    let side_data =
+        |video: &str| said(&bench, video, "v", "stream=color_transfer:stream_side_data_list:frame=side_data_list");
+    for name in ["kept.mkv", "kept.mp4"] {
+        convert(&bench, ["hdr.mp4", name], &[]);
+        assert_says(&side_data(name), &["smpte2084", "max_content=1000"]);
+    }
+    for name in ["sdr.mkv", "sdr.mp4"] {
+        convert(&bench, ["hdr.mp4", name], &["--out-transfer", "bt1886"]);
+        let told = side_data(name);
+        assert!(!told.contains("max_content") && !told.contains("smpte2084"), "{name}: {told}");
+    }
+}
+
+/// Pictures with alpha keep it where the codec has room, and it is said where not.
+#[test]
+fn alpha_goes_into_videos_that_hold_it() {
+    if !has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    let source =
+        "testsrc2=size=64x32:rate=25,format=gbrap,geq=r='p(X,Y)':g='p(X,Y)':b='p(X,Y)':a='X*4',trim=end_frame=3";
+    ffmpeg(&bench, &["-f", "lavfi", "-i", source, "-c:v", "ffv1", "-pix_fmt", "bgra", "film.mkv"]);
+    convert(&bench, ["film.mkv", "frames_#.png"], &[]);
+    for (name, format, worst) in [("a.mkv", "bgra", 0), ("a.mov", "yuva444p1", 6), ("a.webm", "yuva420p", 40)] {
+        convert(&bench, ["film.mkv", name], &[]);
+        let told = said(&bench, name, "v", "stream=pix_fmt:stream_tags=alpha_mode");
+        assert!(told.contains(format) || (name == "a.webm" && told.contains("alpha_mode=1")), "{name}: {told}");
+        if name == "a.webm" {
+            continue;
+        }
+        bench.succeed(&[
+            "convert",
+            name,
+            "back_#.png",
+            "-y",
+            "--from",
+            "fulldome",
+            "--to",
+            "fulldome",
+            "--size",
+            "16",
+            "--filter",
+            "point",
+        ]);
+        let (one, other) = (bench.load("frames_2.png"), bench.load("back_2.png"));
+        assert_eq!(one.channels(), other.channels(), "{name}");
+        let alphas = |image: &cosmorama::raster::EncodedImage| -> Vec<i32> {
+            match image.samples() {
+                cosmorama::raster::Samples::U8(samples) => {
+                    samples.iter().skip(3).step_by(4).map(|a| i32::from(*a)).collect()
+                }
+                cosmorama::raster::Samples::U16(samples) => {
+                    samples.iter().skip(3).step_by(4).map(|a| i32::from(*a >> 8)).collect()
+                }
+                _ => panic!("floats"),
+            }
+        };
+        let distance = alphas(&one).into_iter().zip(alphas(&other)).map(|(one, other)| (one - other).abs()).max();
+        assert!(distance <= Some(worst), "{name}: {distance:?}");
+    }
+    let output = bench.run(&[&["convert", "film.mkv", "a.mp4"], &DOME[..]].concat());
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert_says(&text(&output.stderr), &["no alpha"]);
+}
+
+/// An MP4 that was cut without encoding it again counts frames that it does not show.
+#[test]
+fn frames_that_an_edit_list_hides_are_not_asked_for() {
+    if !has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    let source = "testsrc2=size=64x32:rate=25,trim=end_frame=60";
+    ffmpeg(&bench, &["-f", "lavfi", "-i", source, "-c:v", "libx264", "-g", "20", "-pix_fmt", "yuv420p", "whole.mp4"]);
+    ffmpeg(&bench, &["-ss", "1.2", "-i", "whole.mp4", "-t", "0.6", "-c", "copy", "short.mp4"]);
+    let shown = taken_apart(&bench, "short.mp4", "shown");
+    convert(&bench, ["short.mp4", "made/####.png"], &[]);
+    assert_eq!(std::fs::read_dir(bench.path("made")).unwrap().count(), shown);
+    convert(&bench, ["short.mp4", "dome.mkv"], &[]);
+    assert_says(&said(&bench, "dome.mkv", "v", "stream=nb_read_frames"), &[&format!("={shown}\n")]);
+}
+
+/// Frames of a variable rate are found by their own times.
+#[test]
+fn times_choose_frames_of_a_variable_rate() {
+    if !has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    // Frames at 0, 0.04, 0.16, 0.36, 0.64, 1 seconds, and so on.
+    let source = "testsrc2=size=64x32:rate=25,trim=end_frame=12,setpts=N*N/25/TB";
+    ffmpeg(&bench, &["-f", "lavfi", "-i", source, "-fps_mode", "vfr", "-c:v", "ffv1", "-pix_fmt", "bgr0", "film.mkv"]);
+    convert(&bench, ["film.mkv", "all/####.png"], &[]);
+    convert(&bench, ["film.mkv", "some/####.png"], &["--frames", "00:00:00.3-00:00:02,00:00:04"]);
+    let mut names: Vec<_> =
+        std::fs::read_dir(bench.path("some")).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    names.sort();
+    assert_eq!(names, ["0003.png", "0004.png", "0005.png", "0006.png", "0007.png", "0010.png"]);
+    assert_same(&bench, "all", "some", 3..8);
+    assert_says(
+        &refused(&bench, 1, ["film.mkv", "no_#.png"], &["--frames", "00:00:00.2-00:00:00.3"]),
+        &["rate that varies"],
+    );
+}
+
 #[test]
 fn settings_of_videos_are_checked_before_work() {
     if !has_ffmpeg() {
@@ -243,6 +416,66 @@ fn a_killed_run_leaves_no_video_and_no_ffmpeg() {
             std::thread::sleep(Duration::from_millis(20));
         }
     }
+}
+
+/// A program that never ends, in place of an encoder or a decoder, is ended and waited for with the job.
+#[cfg(target_os = "linux")]
+#[test]
+fn programs_that_hang_end_with_the_job() {
+    if !has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    film(&bench, "film.mkv", 60);
+    let found = std::process::Command::new("sh").args(["-c", "command -v ffmpeg"]).output().unwrap();
+    for (number, (hangs, signal)) in [("pipe:0", "TERM"), ("pipe:1", "INT")].into_iter().enumerate() {
+        let folder = format!("bin_{number}");
+        std::fs::create_dir(bench.path(&folder)).unwrap();
+        let script = format!(
+            "#!/bin/sh\ncase \"$*\" in *{hangs}*) exec sleep 60;; esac\nexec {} \"$@\"\n",
+            text(&found.stdout).trim()
+        );
+        let program = bench.path(&format!("{folder}/ffmpeg"));
+        std::fs::write(&program, script).unwrap();
+        std::fs::set_permissions(&program, std::os::unix::fs::PermissionsExt::from_mode(0o755)).unwrap();
+        let path = format!("{}:{}", bench.path(&folder).display(), std::env::var("PATH").unwrap());
+        let args = [&["convert", "film.mkv", "dome.mkv"], &DOME[..]].concat();
+        let mut child = bench.command(&args).env("PATH", path).stderr(Stdio::null()).spawn().unwrap();
+        let begun = Instant::now();
+        let sleeper = loop {
+            if let Some(found) = children_of(child.id()).into_iter().find(|(_, name)| name == "sleep") {
+                break found.0;
+            }
+            assert!(begun.elapsed() < Duration::from_secs(60), "none was begun");
+            std::thread::sleep(Duration::from_millis(20));
+        };
+        let others = children_of(child.id());
+        let sent = Instant::now();
+        std::process::Command::new("kill").args([&format!("-{signal}"), &child.id().to_string()]).status().unwrap();
+        let code = child.wait().unwrap().code();
+        assert!(sent.elapsed() < Duration::from_secs(2), "{hangs}: {:?}", sent.elapsed());
+        assert_eq!(code, Some(if signal == "TERM" { 143 } else { 130 }), "{hangs}");
+        assert!(others.iter().any(|(other, _)| *other == sleeper));
+        for (process, name) in others {
+            assert!(!std::path::Path::new(&format!("/proc/{process}")).exists(), "{hangs}: {name} goes on");
+        }
+        assert!(!bench.path("dome.mkv").exists());
+    }
+}
+
+/// Returns the number and the name of each process that another has started.
+#[cfg(target_os = "linux")]
+fn children_of(parent: u32) -> Vec<(u32, String)> {
+    let processes =
+        std::fs::read_dir("/proc").unwrap().filter_map(|entry| entry.ok()?.file_name().to_str()?.parse().ok());
+    let child = |process: u32| {
+        let stat = std::fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
+        // The name stands in parentheses, the parent is the second word behind them.
+        let (name, rest) = stat.split_once('(')?.1.rsplit_once(')')?;
+        let is_child = rest.split_whitespace().nth(1)? == parent.to_string();
+        is_child.then(|| (process, name.to_owned()))
+    };
+    processes.filter_map(child).collect()
 }
 
 /// Returns the processes called ffmpeg that work in a folder.

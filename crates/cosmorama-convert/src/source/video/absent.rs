@@ -28,6 +28,10 @@ impl Videos {
         Self
     }
 
+    pub(crate) fn ending_with(self, _: &Unfinished) -> Self {
+        self
+    }
+
     pub(crate) fn header(&self, name: &FrameName) -> Result<Header, IoError> {
         Err(refusal(&name.video))
     }
@@ -44,11 +48,15 @@ impl Videos {
         Err(refusal(video))
     }
 
+    pub(crate) fn begins(&self, video: &Path) -> Result<Option<Vec<u64>>, IoError> {
+        Err(refusal(video))
+    }
+
     /// Finds no projection.
     ///
     /// # Errors
     /// Always.
-    pub fn spec(&self, video: &Path) -> Result<Option<Spec>, IoError> {
+    pub fn spec(&self, video: &Path) -> Result<Option<(Spec, &'static str)>, IoError> {
         Err(refusal(video))
     }
 
@@ -74,6 +82,10 @@ impl Videos {
 }
 
 impl MadeVideos {
+    pub(crate) fn holds_alpha(_: &Path, _: Option<&str>, _: bool) -> bool {
+        false
+    }
+
     pub(crate) fn check(_: &[PathBuf], _: &VideoPlan) -> Result<()> {
         Ok(())
     }

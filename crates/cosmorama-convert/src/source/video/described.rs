@@ -46,7 +46,7 @@ pub(super) fn metadata(info: &VideoInfo) -> Metadata {
 }
 
 /// Returns what a video says of itself beside its pictures, each under a name, in the order of a report.
-pub(super) fn facts(info: &VideoInfo) -> Vec<(&'static str, String)> {
+pub(super) fn facts(info: &VideoInfo, halves: Option<Arrangement>) -> Vec<(&'static str, String)> {
     let varies = if info.is_variable { " on average; it varies" } else { "" };
     let turned = info.turn != Turn::default();
     let of_kind = |kind: StreamKind| -> Option<String> {
@@ -63,6 +63,13 @@ pub(super) fn facts(info: &VideoInfo) -> Vec<(&'static str, String)> {
         (
             "turned",
             turned.then(|| "as its rotation asks (width and height are those of the upright picture)".to_owned()),
+        ),
+        (
+            "streams",
+            halves.map(|arrangement| {
+                let way = if arrangement == Arrangement::TopBottom { "one above the other" } else { "side by side" };
+                format!("two, the halves of each picture, {way} (width and height are those of both)")
+            }),
         ),
         ("spherical", info.spatial.as_ref().map(spherical)),
         ("sound", of_kind(StreamKind::Audio)),
@@ -130,6 +137,15 @@ fn not_followed(tags: &SpatialTags) -> Option<String> {
 /// Returns the projection that the tags of a video name, if they do.
 pub(super) fn spec(info: &VideoInfo) -> Option<Spec> {
     text_of(info.spatial.as_ref()?, info.size())?.parse().ok()
+}
+
+/// Returns the projection of a camera whose pictures come in two streams: the rows of GoPro MAX, the circles of Insta360.
+pub(super) fn paired(arrangement: Arrangement) -> Option<Spec> {
+    let name = match arrangement {
+        Arrangement::TopBottom => "gopro-max",
+        Arrangement::SideBySide => "insta360",
+    };
+    name.parse().ok()
 }
 
 /// Whole circle in the units of bounds.

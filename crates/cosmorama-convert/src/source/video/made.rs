@@ -66,6 +66,17 @@ impl MadeVideos {
         Ok(())
     }
 
+    /// Returns whether a video keeps alpha, by its name and the codec that is chosen: ProRes, FFV1 and, of 8 bits, VP9.
+    pub(crate) fn holds_alpha(path: &Path, codec: Option<&str>, is_deep: bool) -> bool {
+        match RawKind::of(path) {
+            Some(kind) => kind == RawKind::Pam,
+            None => {
+                let usual = || Some(Container::of_path(path)?.codecs()[0]);
+                codec.map_or_else(usual, Codec::of_name).is_some_and(|codec| codec.holds_alpha(is_deep))
+            }
+        }
+    }
+
     /// Starts the encoders of videos of these sizes.
     pub(crate) fn start(
         outputs: &[(PathBuf, (usize, usize))],

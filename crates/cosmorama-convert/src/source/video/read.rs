@@ -5,10 +5,12 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use cosmorama::raster::EncodedImage;
+use cosmorama_io::pending::Unfinished;
 use cosmorama_io::{Header, ImageFile, IoError, Limits};
 use cosmorama_spec::{FrameRate, Spec};
 use cosmorama_video::{
-    Announced, AnnouncedBy, Damaged, Fault, Ffmpeg, ReadOptions, VideoError, VideoInfo, VideoReader,
+    Announced, AnnouncedBy, Damaged, Fault, Ffmpeg, PairedReader, ReadOptions, SecondHalf, Timeline, VideoError,
+    VideoInfo, VideoReader,
 };
 use thiserror::Error;
 
@@ -21,6 +23,7 @@ pub struct Videos {
     damaged: DamagedFrames,
     files: Arc<dyn RawFiles>,
     ffmpeg: OnceLock<Arc<Ffmpeg>>,
+    unfinished: Unfinished,
     sources: Mutex<BTreeMap<PathBuf, Arc<Source>>>,
 }
 
@@ -39,8 +42,8 @@ struct Source {
 /// Content of a video's file.
 #[derive(Debug)]
 enum Content {
-    /// A video that ffmpeg decodes.
-    Film { ffmpeg: Arc<Ffmpeg>, info: Box<VideoInfo> },
+    /// A video that ffmpeg decodes, or two streams of it that are halves of its pictures.
+    Film { ffmpeg: Arc<Ffmpeg>, info: Box<VideoInfo>, half: Option<Box<SecondHalf>> },
     /// A stream of raw pictures.
     Raw { kind: RawKind, files: Arc<dyn RawFiles>, rate: Option<FrameRate> },
 }
@@ -49,6 +52,7 @@ enum Content {
 #[derive(Debug)]
 enum Decoder {
     Film(Box<VideoReader>),
+    Pair(Box<PairedReader>),
     Raw(RawReader),
 }
 
@@ -80,7 +84,13 @@ const MOST_EARLY: usize = 64;
 impl Videos {
     /// Creates an empty list of videos. Streams of raw pictures come from `files`.
     pub(crate) fn new(damaged: DamagedFrames, files: Arc<dyn RawFiles>) -> Self {
-        Self { damaged, files, ffmpeg: OnceLock::new(), sources: Mutex::default() }
+        let (ffmpeg, unfinished) = (OnceLock::new(), Unfinished::default());
+        Self { damaged, files, ffmpeg, unfinished, sources: Mutex::default() }
+    }
+
+    /// Has programs end with unfinished files when the job is interrupted.
+    pub(crate) fn ending_with(self, unfinished: &Unfinished) -> Self {
+        Self { unfinished: unfinished.clone(), ..self }
     }
 
     /// Returns the header of a frame.
@@ -113,12 +123,32 @@ impl Videos {
         })
     }
 
-    /// Returns the projection that the spherical tags of a video name.
+    /// Returns the nanoseconds from the first frame to the beginning of each, where the rate varies.
+    pub(crate) fn begins(&self, video: &Path) -> Result<Option<Vec<u64>>, IoError> {
+        let source = self.source(video)?;
+        let Content::Film { ffmpeg, info, .. } = &source.content else { return Ok(None) };
+        Ok(match ffmpeg.timeline(info).map_err(foreign)? {
+            Timeline::Even { .. } => None,
+            Timeline::Listed { times, time_base } => {
+                let first = times.first().copied().unwrap_or_default();
+                let nanoseconds = |time: &i64| (time.abs_diff(first) as f64 * time_base.to_f64() * 1e9).round() as u64;
+                Some(times.iter().map(nanoseconds).take(source.count as usize).collect())
+            }
+        })
+    }
+
+    /// Returns the projection that a video names, and what names it: its spherical tags, or its two streams.
     ///
     /// # Errors
     /// When it cannot be read.
-    pub fn spec(&self, video: &Path) -> Result<Option<Spec>, IoError> {
-        Ok(self.info(video)?.and_then(|info| described::spec(&info)))
+    pub fn spec(&self, video: &Path) -> Result<Option<(Spec, &'static str)>, IoError> {
+        Ok(match &self.source(video)?.content {
+            Content::Film { half: Some(half), .. } => {
+                described::paired(half.arrangement).map(|spec| (spec, "two streams"))
+            }
+            Content::Film { info, .. } => described::spec(info).map(|spec| (spec, "spherical tags")),
+            Content::Raw { .. } => None,
+        })
     }
 
     /// Returns what a video says of itself beside its pictures, each under a name, in the order of a report.
@@ -126,8 +156,8 @@ impl Videos {
     /// # Errors
     /// When it cannot be read.
     pub fn facts(&self, video: &Path) -> Result<Vec<(&'static str, String)>, IoError> {
-        if let Some(info) = self.info(video)? {
-            return Ok(described::facts(&info));
+        if let Content::Film { info, half, .. } = &self.source(video)?.content {
+            return Ok(described::facts(info, half.as_ref().map(|half| half.arrangement)));
         }
         let rate = self.rate(video)?;
         Ok(rate.map(|rate| ("frame_rate", rate.to_string())).into_iter().collect())
@@ -184,7 +214,7 @@ impl Videos {
         if let Some(ffmpeg) = self.ffmpeg.get() {
             return Ok(Arc::clone(ffmpeg));
         }
-        let found = Arc::new(Ffmpeg::find().map_err(foreign)?);
+        let found = Arc::new(Ffmpeg::find().map_err(foreign)?.ending_with(&self.unfinished));
         Ok(Arc::clone(self.ffmpeg.get_or_init(|| found)))
     }
 
@@ -195,14 +225,29 @@ impl Videos {
 
 impl Source {
     fn film(ffmpeg: Arc<Ffmpeg>, video: &Path, damaged: DamagedFrames) -> Result<Self, VideoError> {
-        let info = ffmpeg.probe(video)?;
+        let mut info = ffmpeg.probe(video)?;
+        let half = ffmpeg.second_half(&info)?;
         let damaged = match damaged {
             DamagedFrames::Error => Damaged::Error,
             DamagedFrames::Hold => Damaged::Hold,
             DamagedFrames::Skip => Damaged::Skip,
         };
-        let (count, header) = (count(&ffmpeg, &info)?, described::header(&info));
-        let content = Content::Film { ffmpeg, info: Box::new(info) };
+        let (mut frames, mut header) = (count(&ffmpeg, &info)?, described::header(&info));
+        if let Some(half) = &half {
+            let others = count(&ffmpeg, &half.info)?;
+            if others != frames {
+                let (all, both) = (frames.max(others), frames.min(others));
+                header.metadata.notes.push(format!(
+                    "one of its two streams has {all} frames, the other {both}; only frames that both have are read"
+                ));
+                frames = both;
+            }
+            (header.width, header.height) = half.arrangement.whole((header.width, header.height));
+            // It is no stream beside the video.
+            info.others.retain(|other| other.index != half.info.stream);
+        }
+        let content = Content::Film { ffmpeg, info: Box::new(info), half: half.map(Box::new) };
+        let count = frames;
         Ok(Self { name: video.to_owned(), content, header, damaged, count, state: Mutex::default() })
     }
 
@@ -275,8 +320,8 @@ impl Source {
     /// file's end, where it tells whether there are more frames than are announced. Of a file that is cut it takes the frames that are
     /// wanted, so that the first that is missing is named.
     fn reader(&self, first: u64, state: &State, limits: &Limits) -> Result<(Decoder, u64), VideoError> {
-        let (ffmpeg, info) = match &self.content {
-            Content::Film { ffmpeg, info } => (ffmpeg, info),
+        let (ffmpeg, info, half) = match &self.content {
+            Content::Film { ffmpeg, info, half } => (ffmpeg, info, half),
             Content::Raw { kind, files, .. } => {
                 let reader =
                     RawReader::open(*kind, files.open(&self.name)?, &self.name.display().to_string(), limits.memory)?;
@@ -288,7 +333,11 @@ impl Source {
         let is_all = first == 0 && info.cut.is_none();
         let frames = (!is_all).then_some(first..=last);
         let options = ReadOptions { frames, damaged: self.damaged, memory: limits.memory, ..ReadOptions::default() };
-        Ok((Decoder::Film(Box::new(VideoReader::open(ffmpeg, info, options)?)), first))
+        let decoder = match half {
+            Some(half) => Decoder::Pair(Box::new(PairedReader::open(ffmpeg, info, half, options)?)),
+            None => Decoder::Film(Box::new(VideoReader::open(ffmpeg, info, options)?)),
+        };
+        Ok((decoder, first))
     }
 
     fn without(&self, asked: u64) -> VideoError {
@@ -335,12 +384,11 @@ impl Source {
 impl Decoder {
     /// Returns the next frame with its number; `None` after the last. The number of a stream's is counted.
     fn next(&mut self, name: &Path, number: u64) -> Result<Option<(u64, EncodedImage)>, VideoError> {
+        let told = name.display().to_string();
         Ok(match self {
-            Self::Film(reader) => {
-                let frame = aside(|| reader.next_frame(), &name.display().to_string())?;
-                frame.map(|frame| (frame.index, frame.image))
-            }
-            Self::Raw(reader) => reader.next_picture(&name.display().to_string())?.map(|image| (number, image)),
+            Self::Film(reader) => aside(|| reader.next_frame(), &told)?.map(|frame| (frame.index, frame.image)),
+            Self::Pair(reader) => aside(|| reader.next_frame(), &told)?.map(|frame| (frame.index, frame.image)),
+            Self::Raw(reader) => reader.next_picture(&told)?.map(|image| (number, image)),
         })
     }
 }
@@ -348,9 +396,12 @@ impl Decoder {
 impl State {
     /// Ends the decoder, and notes its faults.
     fn close(&mut self) {
-        let Some((Decoder::Film(reader), _)) = self.reader.take() else { return };
-        let faults = reader.faults().iter();
-        self.faults.extend(faults.map(|Fault { frame, count, reason }| (*frame, (*count, reason.clone()))));
+        let noted = |Fault { frame, count, reason }: &Fault| (*frame, (*count, reason.clone()));
+        match self.reader.take() {
+            Some((Decoder::Film(reader), _)) => self.faults.extend(reader.faults().iter().map(noted)),
+            Some((Decoder::Pair(reader), _)) => self.faults.extend(reader.faults().map(noted)),
+            Some((Decoder::Raw(_), _)) | None => {}
+        }
     }
 }
 
@@ -363,7 +414,8 @@ struct Shared(Arc<VideoError>);
 /// counted.
 fn count(ffmpeg: &Ffmpeg, info: &VideoInfo) -> Result<u64, VideoError> {
     let announced = match info.announced {
-        Some(Announced { frames, by: AnnouncedBy::Count }) => return Ok(frames),
+        Some(Announced { frames, by: AnnouncedBy::Count }) if !hides_frames(info, frames) => return Ok(frames),
+        Some(Announced { frames, by: AnnouncedBy::Count }) => Some(frames),
         Some(Announced { frames, by: AnnouncedBy::Duration }) => Some(frames),
         None => None,
     };
@@ -374,5 +426,16 @@ fn count(ffmpeg: &Ffmpeg, info: &VideoInfo) -> Result<u64, VideoError> {
     let mut listed = info.clone();
     listed.is_variable = true;
     let coded = ffmpeg.timeline(&listed)?.frames().unwrap_or_default();
+    if hides_frames(info, announced.unwrap_or(coded)) {
+        return Ok(coded);
+    }
     Ok(announced.filter(|frames| coded + 1 < *frames).unwrap_or(coded))
+}
+
+/// Returns whether some of the frames that a file counts are not shown: the edit list of an MP4 that was cut without encoding it again
+/// leaves them out, and its duration tells so.
+fn hides_frames(info: &VideoInfo, counted: u64) -> bool {
+    let is_count = matches!(info.announced, Some(Announced { by: AnnouncedBy::Count, .. }));
+    let shown = |seconds: f64| (seconds * info.rate.to_f64()).round() as u64;
+    is_count && info.cut.is_none() && info.duration.is_some_and(|seconds| shown(seconds) < counted)
 }
