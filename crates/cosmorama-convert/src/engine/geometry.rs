@@ -1,3 +1,4 @@
+use cosmorama::filter::ClassicTables;
 use cosmorama::raster::{FixedCodec, FixedLight, FramePool, Image, Rgba};
 use cosmorama::render::{Arithmetic, Plan, Progress, Stopped, Watched};
 
@@ -6,6 +7,16 @@ use crate::diagnostic::{Code, Diagnostic, KERNEL, MEMORY};
 use crate::engine::{Balance, BalancedLight, Shares, balance};
 use crate::job::ConvertJob;
 use crate::target::TargetView;
+
+/// Light of a world in a frame.
+#[derive(Clone, Copy)]
+pub(crate) struct WorldLight<'a> {
+    pub(crate) texels: &'a [Rgba],
+    /// Tables that the filter has made of it.
+    pub(crate) tables: Option<&'a ClassicTables>,
+    /// Whether texels are missing.
+    pub(crate) has_holes: bool,
+}
 
 /// Geometry of a job, compiled for each target view where that pays and fits into memory.
 pub(crate) struct Geometry {
@@ -82,13 +93,13 @@ impl Geometry {
         &self,
         index: usize,
         watched: Watched,
-        (texels, has_holes): (&[Rgba], bool),
+        WorldLight { texels, tables, has_holes }: WorldLight,
         background: Rgba,
         pool: &FramePool,
         last: &mut BalancedLight,
     ) -> Result<Image<Rgba>, Stopped> {
         let plan = self.plan(index, Arithmetic::Float);
-        let Some(plan) = plan else { return watched.render_over(texels, background) };
+        let Some(plan) = plan else { return watched.render_by(tables, texels, background) };
         let target = watched.resampler.target;
         let over = |texels: &[Rgba], background: Rgba| {
             let mut image = pool.take_image(target.width(), target.height());
@@ -197,7 +208,8 @@ mod tests {
         let place = left.pixels().as_ptr();
         pool.give_image(left);
         let mut last = BalancedLight::default();
-        let made = geometry.light(0, watched(), (&texels, false), Rgba::BLACK, &pool, &mut last).expect("pixels");
+        let light = WorldLight { texels: &texels, tables: None, has_holes: false };
+        let made = geometry.light(0, watched(), light, Rgba::BLACK, &pool, &mut last).expect("pixels");
         assert!(made == expected && made.pixels().as_ptr() == place);
     }
 }

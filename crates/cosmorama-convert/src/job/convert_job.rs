@@ -2,7 +2,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use cosmorama::camera::View;
-use cosmorama::filter::{FilterKind, FilterSettings, Kernel};
+use cosmorama::filter::{Filter, FilterKind, FilterSettings, Kernel};
 use cosmorama::lighting::PreparedLight;
 use cosmorama::motion::{Exposure, Moment, Pose};
 use cosmorama::raster::{Channels, Depth, FixedCodec, FixedDecoder, Rgba, Transfer};
@@ -310,11 +310,19 @@ impl ConvertJob {
         }
         self.memory.check_frame(self.frame_needs(), &self.input, &self.target)?;
         let prepared = self.target.views.iter().map(|target| self.resampler(target).filter_bytes() as u64);
-        self.prepared = prepared.max().unwrap_or(0);
+        self.prepared = prepared.max().unwrap_or(0).max(self.table_bytes());
         let needs = self.frame_needs();
         self.memory.check_prepared(needs)?;
         self.memory = self.memory.beside_channels(&mut self.layers, needs, (&self.input, &self.target))?;
         Ok(())
+    }
+
+    /// Returns the bytes of what the filter computes of light once for all pictures: of each world, and of the further channels
+    /// while they are filtered.
+    fn table_bytes(&self) -> u64 {
+        let times = 1 + u64::from(!self.layers.groups.is_empty());
+        let worlds = self.worlds.iter().filter(|_| self.filter.has_tables());
+        worlds.map(|world| self.filter.setup(world).bytes as u64 * times).fold(0, u64::saturating_add)
     }
 
     /// Checks that memory suffices for maps of light, with what is gathered for them.
@@ -328,7 +336,7 @@ impl ConvertJob {
         let copies = lighting.every.map_or(0, |every| every.frames.min(self.input.frames.len()) + 2);
         let pictures = self.frame_needs().pictures();
         // Maps are assembled to pictures when all are made.
-        self.prepared = blocks.saturating_add(bands).saturating_add(pictures);
+        self.prepared = blocks.saturating_add(bands).saturating_add(pictures).saturating_add(self.table_bytes());
         self.memory.check_prepared(self.frame_needs())?;
         let maps = pictures.saturating_mul(copies as u64);
         self.prepared = self.prepared.saturating_add(maps);

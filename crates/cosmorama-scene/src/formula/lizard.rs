@@ -6,9 +6,8 @@ use glam::DVec3;
 
 use super::tube::{Ring, Tube};
 use crate::material::{Finish, Material, Paint};
-use crate::model::Placing;
 use crate::scene::{Object, Part, Scene};
-use crate::shape::{Face, Mesh, Normals, Shape, Sphere};
+use crate::shape::{Face, Mesh, Normals, Placing, Shape, Sphere};
 
 /// Axis of the body from the tip of the tail to the snout, along x, with its extents sideways and upward. The ground is at
 /// y = 0, the belly near x = 0.
@@ -60,9 +59,8 @@ impl Scene {
     /// `lizard`, `slab` and `eye`. It is 3.3 long, looks along x, and stands where it is placed.
     pub fn lizard(skin: Material, slab: Material, placing: &Placing) -> Self {
         let faces: Vec<Face> = [body(), plates(), legs(), stone()].concat();
-        let faces = faces.iter().map(|face| placing.face(face)).collect();
         let normals = Normals { kept: false, crease: Angle::from_degrees(50.0) };
-        let mesh = Mesh::new(faces, normals).expect("a surface of finite triangles");
+        let mesh = Mesh::new(faces, normals).expect("a surface of finite triangles").placed(placing);
         let part =
             |name: &str, material: &Material| Part { name: name.to_owned(), material: material.clone(), world: 0 };
         let lizard =

@@ -2,9 +2,9 @@ use cosmorama::camera::{CameraModel, FieldOfView, PerspectiveCamera, Placement, 
 use cosmorama::sphere::{Angle, Orientation};
 use glam::DVec3;
 
-use super::Placing;
 use crate::camera::{Camera, Orthographic};
 use crate::error::SceneError;
+use crate::shape::Placing;
 
 /// A camera that a model's file has.
 #[derive(Clone, Debug, PartialEq)]

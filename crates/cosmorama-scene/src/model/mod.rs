@@ -10,12 +10,11 @@ mod obj;
 use std::path::Path;
 use std::sync::Arc;
 
-use cosmorama::sphere::{Angle, Orientation};
-use glam::DVec3;
+use cosmorama::sphere::Angle;
 
 use crate::material::{Material, PictureReader};
 use crate::scene::{Object, Part};
-use crate::shape::{Face, Mesh, Normals, Shape};
+use crate::shape::{Face, Mesh, Normals, Placing, Shape};
 
 pub use camera::{ModelCamera, ModelLens};
 pub use error::{ModelError, ModelFault};
@@ -48,17 +47,6 @@ pub struct ModelSettings {
     pub placing: Option<Placing>,
 }
 
-/// Place of a thing: it is scaled, turned, and then moved.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Placing {
-    /// Factor on its size.
-    pub scale: f64,
-    /// Orientation about its origin.
-    pub turn: Orientation,
-    /// Place of its origin.
-    pub origin: DVec3,
-}
-
 impl ModelSettings {
     /// Returns the greatest number of bytes of a file.
     fn most_bytes(&self) -> u64 {
@@ -69,24 +57,6 @@ impl ModelSettings {
     fn check_counts(&self, triangles: usize, vertices: usize) -> Result<(), ModelFault> {
         let count = triangles.max(vertices / 3);
         if count > self.most { Err(ModelFault::TooLarge { count, most: self.most }) } else { Ok(()) }
-    }
-}
-
-impl Placing {
-    /// Returns the place of a point.
-    pub(crate) fn point(&self, point: DVec3) -> DVec3 {
-        self.origin + self.turn.rotation() * (point * self.scale)
-    }
-
-    /// Returns the place of a triangle.
-    pub(crate) fn face(&self, face: &Face) -> Face {
-        let turn = self.turn.rotation();
-        Face {
-            corners: face.corners.map(|corner| self.point(corner)),
-            normals: face.normals.map(|normals| normals.map(|normal| turn * normal)),
-            tangents: face.tangents.map(|all| all.map(|tangent| (turn * tangent.truncate()).extend(tangent.w))),
-            ..*face
-        }
     }
 }
 
@@ -133,42 +103,59 @@ impl Model {
 
 fn read(path: &Path, settings: &ModelSettings, pictures: &mut dyn PictureReader) -> Result<Model, ModelFault> {
     let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
-    let Contents { faces, mut parts, mut cameras, mut notes, crease, is_one_sided } = match extension.as_deref() {
+    let Contents { faces, parts, mut cameras, mut notes, crease, is_one_sided } = match extension.as_deref() {
         Some("obj") => obj::read(path, settings, pictures)?,
         Some("gltf" | "glb") => gltf::read(path, settings, pictures)?,
         _ => return Err(ModelFault::Extension),
     };
-    let faces = match &settings.placing {
-        Some(placing) => {
-            cameras.iter_mut().for_each(|camera| *camera = camera.placed(placing));
-            faces.iter().map(|face| placing.face(face)).collect()
-        }
-        None => faces,
-    };
     let normals = Normals { kept: settings.crease.is_none(), crease: settings.crease.unwrap_or(crease) };
-    let mesh = Mesh::new(faces, normals)?;
+    let mut mesh = Mesh::mended(faces, normals)?;
+    if let Some(placing) = &settings.placing {
+        mesh = mesh.placed(placing);
+        cameras.iter_mut().for_each(|camera| *camera = camera.placed(placing));
+    }
     if mesh.skipped() > 0 {
         notes.push(format!("{} triangles without area are left out", mesh.skipped()));
+    }
+    if mesh.turned() > 0 {
+        notes.push(format!(
+            "{} of {} triangles faced the wrong way, and are turned round",
+            mesh.turned(),
+            mesh.count()
+        ));
     }
     if is_one_sided && mesh.hole().is_some() {
         notes.push("surfaces of one side are seen from both".to_owned());
     }
+    let mut object = Object { shape: Shape::Mesh(Arc::new(mesh)), parts };
     if let Some(material) = &settings.material {
-        if material.has_pictures() && !mesh.has_maps() {
-            return Err(ModelFault::NoCoordinates);
-        }
-        parts.iter_mut().for_each(|part| part.material = material.clone());
+        coat(&mut object, material)?;
     }
-    for part in &parts {
+    for part in &object.parts {
         let fault = |why: String| ModelFault::Piece { piece: format!("material of {}", part.name), why };
         part.material.check().map_err(|error| fault(format!("is out of range: {error}")))?;
     }
-    let bare = mesh.bare_parts();
-    let is_bare = |(number, part): &(usize, &Part)| part.material.has_pictures() && bare.contains(number);
-    let lost = parts.iter().enumerate().filter(is_bare).map(|(_, part)| part.name.as_str()).collect::<Vec<_>>();
-    if !lost.is_empty() {
-        let note = format!("without texture coordinates, pictures are not shown on all of: {}", lost.join(", "));
-        notes.push(note);
+    notes.extend(bare(&object));
+    Ok(Model { object, cameras, notes })
+}
+
+/// Gives a model another material, on all parts.
+///
+/// # Errors
+/// When the material has pictures, and the model no texture coordinates.
+pub(crate) fn coat(object: &mut Object, material: &Material) -> Result<(), ModelFault> {
+    if material.has_pictures() && object.shape.mesh().is_some_and(|mesh| !mesh.has_maps()) {
+        return Err(ModelFault::NoCoordinates);
     }
-    Ok(Model { object: Object { shape: Shape::Mesh(Arc::new(mesh)), parts }, cameras, notes })
+    object.parts.iter_mut().for_each(|part| part.material = material.clone());
+    Ok(())
+}
+
+/// Tells which parts of a model have pictures that are not shown on all of them.
+pub(crate) fn bare(object: &Object) -> Option<String> {
+    let bare = object.shape.mesh()?.bare_parts();
+    let is_bare = |(number, part): &(usize, &Part)| part.material.has_pictures() && bare.contains(number);
+    let lost: Vec<&str> = object.parts.iter().enumerate().filter(is_bare).map(|(_, part)| part.name.as_str()).collect();
+    let note = || format!("without texture coordinates, pictures are not shown on all of: {}", lost.join(", "));
+    (!lost.is_empty()).then(note)
 }

@@ -101,7 +101,10 @@ pub fn backdrop(camera: &Camera, surroundings: &Surroundings, background: Backgr
         (Background::World, Camera::Lens { view, .. }) => {
             let sky = surroundings.sky;
             let resampler = Resampler { world: sky.world, target: view, filter: surroundings.filter };
-            let mut image = resampler.render(sky.light.texels());
+            let mut image = match surroundings.filter.has_tables() {
+                true => cosmorama::render::picture(surroundings.prepared(), view),
+                false => resampler.render(sky.light.texels()),
+            };
             if let Some(unseen) = sky.unseen {
                 lay_within(camera, &mut image, unseen);
             }

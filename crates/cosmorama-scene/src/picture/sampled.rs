@@ -78,7 +78,11 @@ impl Pixel<'_> {
 
     /// Returns the nearest surface at a place of the picture.
     pub(super) fn sighting(&self, place: PixelPoint, things: &[usize]) -> Option<Sighting> {
-        let ray = self.camera.ray(place)?;
+        self.met(self.camera.ray(place)?, things)
+    }
+
+    /// Returns the nearest surface that a ray meets.
+    fn met(&self, ray: Ray, things: &[usize]) -> Option<Sighting> {
         let hits = things.iter().filter_map(|object| Some((*object, self.scene.objects[*object].shape.meet(&ray)?)));
         let nearest = hits.min_by(|a, b| a.1.distance.total_cmp(&b.1.distance));
         nearest.map(|(object, hit)| Sighting { ray, object, hit })
@@ -101,9 +105,10 @@ impl Pixel<'_> {
         let (mut samples, mut rays) = (Vec::with_capacity(SAMPLES as usize), 0);
         for place in (0..SAMPLES).map(place) {
             let at = PixelPoint::new(pixel[0] as f64 + place[0], pixel[1] as f64 + place[1]);
-            rays += usize::from(self.camera.ray(at).is_some());
-            let Some(sighting) = self.sighting(at, things) else { continue };
-            let normal = self.scene.objects[sighting.object].shape.wall(&sighting.ray, &sighting.hit).normal.unit;
+            let Some(ray) = self.camera.ray(at) else { continue };
+            rays += 1;
+            let Some(sighting) = self.met(ray, things) else { continue };
+            let normal = self.scene.objects[sighting.object].shape.normal(&ray, &sighting.hit);
             samples.push(Sample { place, sighting, normal });
         }
         if samples.is_empty() || shown <= 0.0 {

@@ -4,9 +4,10 @@ mod error;
 mod material;
 mod written;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use cosmorama::raster::{Image, Rgba};
 use cosmorama::sphere::{Angle, Orientation};
@@ -14,10 +15,10 @@ use cosmorama_spec::did_you_mean;
 use toml::Spanned;
 
 use crate::material::{Material, PictureKind, PictureReader, PictureSource};
-use crate::model::{ModelSettings, Placing};
+use crate::model::{ModelFault, ModelSettings, bare, coat};
 use crate::scene::{Object, Scene};
 use crate::shade::Proxy;
-use crate::shape::Sphere;
+use crate::shape::{Placing, Shape, Sphere};
 
 use error::Source;
 use written::{ObjectEntry, Written};
@@ -45,6 +46,8 @@ pub use error::SceneFileError;
 ///     fn model(&mut self, _: &Path, _: ModelSettings) -> Result<Object, String> {
 ///         Err("no models here".to_owned())
 ///     }
+///
+///     fn tell(&mut self, _: &Path, _: &str) {}
 /// }
 ///
 /// let text = "[[object]]\nshape = 'sphere'\nmaterial = 'gold'\n[material.gold]\nmetallic = 1\ncolor = '#ffcc66'\n";
@@ -70,6 +73,9 @@ pub trait SceneReader: PictureReader {
     /// # Errors
     /// When it cannot be read; the reason is told behind the line that names it.
     fn model(&mut self, path: &Path, settings: ModelSettings) -> Result<Object, String>;
+
+    /// Receives a note on a thing of a model that was read before.
+    fn tell(&mut self, path: &Path, note: &str);
 }
 
 /// A world that a scene file names.
@@ -109,6 +115,46 @@ pub struct FileCamera {
 
 /// Materials that are read, by their names, and whether a ball has them.
 type Materials = BTreeMap<(String, bool), Material>;
+
+/// Models that are read. Each is read and built once, however many things are of it, and wherever they stand.
+#[derive(Default)]
+struct Models {
+    /// Models by their files, their creases, and whether their files' own materials were asked for: those name pictures.
+    read: BTreeMap<(PathBuf, Option<u64>, bool), Object>,
+    /// Notes that were told of them.
+    told: BTreeSet<(PathBuf, String)>,
+}
+
+impl Models {
+    /// Returns a model as a thing has it, with its material and at its place.
+    fn model(
+        &mut self,
+        path: PathBuf,
+        settings: ModelSettings,
+        reader: &mut dyn SceneReader,
+    ) -> Result<Object, String> {
+        let key = (path, settings.crease.map(|crease| crease.radians().to_bits()), settings.material.is_none());
+        let Some(known) = self.read.get(&key) else {
+            let object = reader.model(&key.0, settings)?;
+            self.told.extend(bare(&object).map(|note| (key.0.clone(), note)));
+            self.read.insert(key, object.clone());
+            return Ok(object);
+        };
+        let (mut object, path) = (known.clone(), key.0);
+        if let Some(material) = &settings.material {
+            coat(&mut object, material).map_err(|why: ModelFault| format!("{}: {why}", path.display()))?;
+        }
+        if let (Shape::Mesh(mesh), Some(placing)) = (&object.shape, &settings.placing) {
+            object.shape = Shape::Mesh(Arc::new(mesh.placed(placing)));
+        }
+        if let Some(note) = bare(&object)
+            && self.told.insert((path.clone(), note.clone()))
+        {
+            reader.tell(&path, &note);
+        }
+        Ok(object)
+    }
+}
 
 /// A reader that reads nothing.
 struct Unread;
@@ -193,7 +239,7 @@ impl SceneFile {
     /// # Errors
     /// When a material is out of range, or a file cannot be read.
     pub fn scene(&self, reader: &mut dyn SceneReader) -> Result<Scene, SceneFileError> {
-        let mut materials = Materials::new();
+        let (mut materials, mut models) = (Materials::new(), Models::default());
         let mut scene = Scene::default();
         for (index, entry) in self.written.object.iter().enumerate() {
             let entry = entry.get_ref();
@@ -203,7 +249,7 @@ impl SceneFile {
             let number = |wanted: &Spanned<String>| self.written.world.keys().position(|name| name == wanted.get_ref());
             let world = entry.world.as_ref().and_then(number).map_or(0, |index| index + 1);
             let mut object = match &entry.file {
-                Some(file) => self.model(entry, (file, material), reader)?,
+                Some(file) => self.model(entry, (file, material), (&mut models, reader))?,
                 None => {
                     let name = entry.name.clone().unwrap_or_else(|| Object::numbered("sphere", index));
                     Object::sphere(entry.sphere(), material.unwrap_or_default()).named(name)
@@ -221,11 +267,11 @@ impl SceneFile {
         &self,
         entry: &ObjectEntry,
         (file, material): (&Spanned<PathBuf>, Option<Material>),
-        reader: &mut dyn SceneReader,
+        (models, reader): (&mut Models, &mut dyn SceneReader),
     ) -> Result<Object, SceneFileError> {
         let crease = entry.crease.map(Angle::from_degrees);
         let settings = ModelSettings { crease, material, most: usize::MAX, placing: Some(entry.placing()) };
-        let found = reader.model(&self.source.folder().join(file.get_ref()), settings);
+        let found = models.model(self.source.folder().join(file.get_ref()), settings, reader);
         let mut object = found.map_err(|message| self.source.error(Some(file.span()), message))?;
         if let Some(name) = &entry.name {
             object.parts.iter_mut().for_each(|part| part.name = format!("{name}/{}", part.name));
@@ -371,6 +417,10 @@ world = "room"
     impl SceneReader for Nothing {
         fn model(&mut self, path: &Path, settings: ModelSettings) -> Result<Object, String> {
             Err(format!("no such model: {} at {}", path.display(), settings.placing.unwrap().origin))
+        }
+
+        fn tell(&mut self, _: &Path, note: &str) {
+            panic!("{note}");
         }
     }
 

@@ -59,7 +59,9 @@ impl LightMaps {
         let is_matt = materials().any(Material::is_matt);
         light.check(world)?;
         let cube = if alphas.mirror { LightMap::cube(&sky) } else { None };
-        let albedo = materials().any(|material| material.finish.is_some()).then(AlbedoTable::new);
+        let finished = || materials().filter(|material| material.finish.is_some());
+        let range = finished().filter_map(Material::alphas).reduce(|[a, b], [c, d]| [a.min(c), b.max(d)]);
+        let albedo = finished().next().map(|_| AlbedoTable::new(range.unwrap_or_default()));
         let (exact, chain, mirror) = (Vec::new(), Vec::new(), alphas.mirror);
         let empty = Self { diffuse: None, exact, chain, cube, mirror, albedo };
         if !is_matt && alphas.exact.is_empty() && alphas.chain.is_empty() {

@@ -130,6 +130,11 @@ impl<'a> Surroundings<'a> {
         &self.turn
     }
 
+    /// Returns the world, prepared by the filter of mirrors.
+    pub(crate) fn prepared(&self) -> &dyn Prepared {
+        &*self.mirror
+    }
+
     /// Returns whether the world is far away.
     pub(crate) fn is_far(&self) -> bool {
         self.proxy.is_none()
@@ -145,7 +150,9 @@ impl<'a> Surroundings<'a> {
             if material.alphas().is_some_and(|range| !held.hold(range)) {
                 return Err(SceneError::NoMap("a roughness"));
             }
-            if material.finish.is_some() && self.maps.albedo.is_none() {
+            let albedo = self.maps.albedo.as_ref();
+            let is_held = albedo.is_some_and(|albedo| material.alphas().is_none_or(|range| albedo.holds(range)));
+            if material.finish.is_some() && !is_held {
                 return Err(SceneError::NoMap("metallic-roughness"));
             }
         }

@@ -3,10 +3,13 @@
 mod chart;
 mod edge;
 mod mesh;
+mod placing;
 mod solid;
 mod sphere;
 
 use std::sync::Arc;
+
+use glam::DVec3;
 
 use crate::ray::Ray;
 
@@ -14,6 +17,7 @@ pub(crate) use chart::Chart;
 pub(crate) use edge::Edge;
 pub(crate) use mesh::Rim;
 pub use mesh::{Face, Mesh, MeshError, Normals};
+pub use placing::Placing;
 pub(crate) use solid::{Solid, Wall};
 pub(crate) use sphere::Meeting;
 pub use sphere::Sphere;
@@ -86,6 +90,14 @@ impl Shape {
         match self {
             Self::Sphere(sphere) => sphere.seen_at(ray, hit.distance),
             Self::Mesh(mesh) => mesh.wall(ray, hit),
+        }
+    }
+
+    /// Returns the unit normal where a ray meets it: a ball's points outward, a mesh's to the side that the ray comes from.
+    pub(crate) fn normal(&self, ray: &Ray, hit: &Hit) -> DVec3 {
+        match self {
+            Self::Sphere(sphere) => sphere.normal_at(ray.at(hit.distance)),
+            Self::Mesh(mesh) => mesh.normal(ray, hit),
         }
     }
 

@@ -27,6 +27,8 @@ impl SceneReader for Small {
     fn model(&mut self, path: &Path, _: ModelSettings) -> Result<Object, String> {
         Err(format!("{}: no model", path.display()))
     }
+
+    fn tell(&mut self, _: &Path, _: &str) {}
 }
 
 const SCENE: &str = "[camera]\nprojection = \"perspective:fov=40\"\neye = [0, 1, 5]\ntarget = [0, 0, 0]\nsize = \"64x48\"\n\n[world.sky]\n\

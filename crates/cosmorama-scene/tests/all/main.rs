@@ -8,4 +8,5 @@ mod occlusion;
 mod spheres;
 mod textures;
 mod variants;
+mod winding;
 mod worlds;

@@ -12,7 +12,7 @@ use cosmorama_scene::{
 };
 use glam::{DMat3, DVec2, DVec3};
 
-const MADE: Normals = Normals { kept: true, crease: Angle::from_degrees(40.0) };
+pub(crate) const MADE: Normals = Normals { kept: true, crease: Angle::from_degrees(40.0) };
 
 /// A smooth sky: light by direction.
 pub(crate) fn light(direction: DVec3) -> [f32; 3] {
@@ -21,7 +21,7 @@ pub(crate) fn light(direction: DVec3) -> [f32; 3] {
     [wave(5.0, 1.5, -1.0), wave(1.0, 6.0, 2.0), wave(-2.0, 3.0, 7.0)]
 }
 
-fn sky() -> (World, Light) {
+pub(crate) fn sky() -> (World, Light) {
     let view = CameraModel::from(EquirectCamera::default()).view(1024, 512).unwrap();
     let texel = |i, j| {
         let [red, green, blue] = light(view.direction(PixelPoint::centre(i, j)).unwrap().vector());
@@ -30,12 +30,12 @@ fn sky() -> (World, Light) {
     World::from_panorama(Image::from_fn(1024, 512, texel)).unwrap()
 }
 
-fn face(corners: [DVec3; 3]) -> Face {
+pub(crate) fn face(corners: [DVec3; 3]) -> Face {
     Face { corners, normals: None, uvs: None, tangents: None, part: 0 }
 }
 
 /// A grid of points, joined to triangles, over u and v from 0 to 1.
-fn grid(columns: usize, rows: usize, point: impl Fn(f64, f64) -> DVec3) -> Vec<Face> {
+pub(crate) fn grid(columns: usize, rows: usize, point: impl Fn(f64, f64) -> DVec3) -> Vec<Face> {
     let at = |i: usize, j: usize| point((i % columns) as f64 / columns as f64, j as f64 / rows as f64);
     let cells = (0..rows).flat_map(|j| (0..columns).map(move |i| (i, j)));
     let faces = cells.flat_map(|(i, j)| {
@@ -46,7 +46,7 @@ fn grid(columns: usize, rows: usize, point: impl Fn(f64, f64) -> DVec3) -> Vec<F
 }
 
 /// A ball of radius 1.
-fn ball(columns: usize) -> Vec<Face> {
+pub(crate) fn ball(columns: usize) -> Vec<Face> {
     let point = |u: f64, v: f64| {
         let (sin, cos) = if v == 0.0 || v == 1.0 { (0.0, 1.0 - 2.0 * v) } else { (PI * v).sin_cos() };
         DVec3::new(sin * (TAU * u).sin(), cos, sin * (TAU * u).cos())
@@ -67,12 +67,12 @@ fn cube(turn: DMat3) -> Vec<Face> {
     (0..3).flat_map(|axis| [side(axis, 1.0), side(axis, -1.0)]).flatten().collect()
 }
 
-fn object(faces: Vec<Face>, material: Material) -> Object {
+pub(crate) fn object(faces: Vec<Face>, material: Material) -> Object {
     let mesh = Mesh::new(faces, MADE).unwrap();
     Object { shape: Shape::Mesh(Arc::new(mesh)), parts: vec![Part { name: "mesh".to_owned(), material, world: 0 }] }
 }
 
-fn lens(eye: [f64; 3], degrees: f64, size: (usize, usize)) -> Camera {
+pub(crate) fn lens(eye: [f64; 3], degrees: f64, size: (usize, usize)) -> Camera {
     let model = CameraModel::from(PerspectiveCamera::new(FieldOfView::Horizontal(Angle::from_degrees(degrees))));
     let place = Place { eye: eye.into(), target: DVec3::ZERO };
     Camera::lens(place, Placement::new(model).view(size.0, size.1).unwrap()).unwrap()
@@ -94,7 +94,7 @@ pub(crate) fn made(objects: Vec<Object>, camera: &Camera) -> Image<Rgba> {
 }
 
 /// Decibels of the differences of all channels, of light of 1.
-fn decibels(a: &Image<Rgba>, b: &Image<Rgba>) -> f64 {
+pub(crate) fn decibels(a: &Image<Rgba>, b: &Image<Rgba>) -> f64 {
     let pairs = a.pixels().iter().zip(b.pixels()).flat_map(|(a, b)| a.0.into_iter().zip(b.0));
     let squares: f64 = pairs.map(|(a, b)| f64::from(a - b).powi(2)).sum();
     -10.0 * (squares / (4 * a.pixels().len()) as f64).log10()
@@ -274,7 +274,7 @@ fn torus(columns: usize, rows: usize) -> Vec<Face> {
 }
 
 /// Glass of many surfaces.
-fn deep_glass() -> Material {
+pub(crate) fn deep_glass() -> Material {
     let glass = Material::GLASS.glass.map(|glass| Glass { surfaces: 8, ..glass });
     Material { glass, ..Material::GLASS }
 }

@@ -12,7 +12,7 @@ pub(crate) mod settings;
 pub(crate) mod taps;
 pub(crate) mod traits;
 
-pub use classic::{Classic, IntegrationOrder, WeighedClassic};
+pub use classic::{Classic, ClassicTables, IntegrationOrder, WeighedClassic};
 pub(crate) use classic::{Passes, TwoPass};
 pub use ewa::Ewa;
 pub use ewa::paper::{TextureDerivatives, WeightTable, ewa};

@@ -1,7 +1,8 @@
 use super::{
-    Bilinear, Classic, Ewa, EwaPyramid, Filter, Kernel, LabelRule, Labels, Point, PrepareError, Prepared, Reference,
-    SetupCost,
+    Bilinear, Classic, ClassicTables, Ewa, EwaPyramid, Filter, Kernel, LabelRule, Labels, Point, PrepareError,
+    Prepared, Reference, SetupCost,
 };
+use crate::raster::Rgba;
 use crate::world::{Light, World};
 
 /// Method that makes a pixel of the texels under a footprint.
@@ -101,6 +102,20 @@ impl FilterSettings {
             FilterKind::Labels(rule) => Box::new(Labels { rule, kernel }),
             FilterKind::Reference { samples } => Box::new(Reference { samples, kernel, anti_ringing }),
         }
+    }
+
+    /// Makes what the filter computes of a world's texels once for all pictures; `None` if pictures share nothing. The two passes
+    /// of [`Classic::TwoPass`] are those of one picture.
+    pub fn tables(&self, world: &World, texels: &[Rgba]) -> Option<ClassicTables> {
+        match self.kind {
+            FilterKind::Classic(classic) if self.has_tables() => Some(classic.with(self.kernel).tables(world, texels)),
+            _ => None,
+        }
+    }
+
+    /// Returns whether there are [`FilterSettings::tables`].
+    pub fn has_tables(&self) -> bool {
+        matches!(self.kind, FilterKind::Classic(classic) if classic != Classic::TwoPass)
     }
 
     /// Checks that the filter loses no precision over a world.

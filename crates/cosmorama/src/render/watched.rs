@@ -1,5 +1,6 @@
 use super::progress::Watch;
 use super::{Arithmetic, Plan, Progress, Resampler, Stopped};
+use crate::filter::ClassicTables;
 use crate::raster::{FixedCodec, FixedLight, Image, Rgba};
 
 /// A [`Resampler`] whose work is watched, and may be stopped.
@@ -55,7 +56,23 @@ impl Watched<'_> {
     /// # Panics
     /// As [`Resampler::render`].
     pub fn render_over(&self, texels: &[Rgba], background: Rgba) -> Result<Image<Rgba>, Stopped> {
-        Watch::over(self.progress, |watch| self.resampler.light(texels, background, watch))
+        self.render_by(None, texels, background)
+    }
+
+    /// Renders over a background by tables of the light that were made before, if there are any, like [`Resampler::render_by`].
+    ///
+    /// # Errors
+    /// If the work is stopped.
+    ///
+    /// # Panics
+    /// As [`Resampler::render`].
+    pub fn render_by(
+        &self,
+        tables: Option<&ClassicTables>,
+        texels: &[Rgba],
+        background: Rgba,
+    ) -> Result<Image<Rgba>, Stopped> {
+        Watch::over(self.progress, |watch| self.resampler.light((texels, tables), background, watch))
     }
 
     /// Renders one frame of 8 bits, like [`Resampler::render_fixed`].

@@ -10,7 +10,7 @@ use super::plan::{self, Arithmetic, Plan};
 use super::progress::Watch;
 use super::{Resampler, picture, pyramid};
 use crate::filter::lookup::labels::PreparedLabels;
-use crate::filter::{Classic, Filter, FilterKind, Labels, reference};
+use crate::filter::{Classic, ClassicTables, Filter, FilterKind, Labels, reference};
 use crate::raster::{FixedCodec, FixedLight, Image, Rgba};
 
 impl Resampler<'_> {
@@ -33,11 +33,24 @@ impl Resampler<'_> {
     /// # Panics
     /// As [`Resampler::render`].
     pub fn render_over(&self, texels: &[Rgba], background: Rgba) -> Image<Rgba> {
-        self.light(texels, background, Watch::NONE)
+        self.light((texels, None), background, Watch::NONE)
     }
 
-    /// Renders light over a background, until the work is done or stopped.
-    pub(super) fn light(&self, texels: &[Rgba], background: Rgba, watch: Watch) -> Image<Rgba> {
+    /// Renders over a background by tables of the light that were made before, for other pictures, too: [`FilterSettings::tables`](crate::filter::FilterSettings::tables).
+    ///
+    /// # Panics
+    /// As [`Resampler::render`].
+    pub fn render_by(&self, tables: Option<&ClassicTables>, texels: &[Rgba], background: Rgba) -> Image<Rgba> {
+        self.light((texels, tables), background, Watch::NONE)
+    }
+
+    /// Renders light over a background, until the work is done or stopped. What tables the filter has are made unless they are given.
+    pub(super) fn light(
+        &self,
+        (texels, tables): (&[Rgba], Option<&ClassicTables>),
+        background: Rgba,
+        watch: Watch,
+    ) -> Image<Rgba> {
         assert_eq!(texels.len(), self.world.texel_count(), "one texel of light for each texel of the world");
         let mut image = match self.filter.kind {
             FilterKind::Ewa | FilterKind::Point | FilterKind::Bilinear => {
@@ -56,7 +69,8 @@ impl Resampler<'_> {
                 two_pass::render((self.world, self.target), &self.filter.kernel, texels, watch)
             }
             FilterKind::Classic(classic) => {
-                let prepared = classic.with(self.filter.kernel).of_texels(self.world, texels);
+                let made = || classic.with(self.filter.kernel).tables(self.world, texels);
+                let prepared = tables.cloned().unwrap_or_else(made).over(self.world, texels);
                 self.by_rows(watch, |row| picture::fill_row(&*prepared, self.target, row))
             }
             FilterKind::EwaPyramid => pyramid::render(self, texels, watch),
@@ -79,7 +93,7 @@ impl Resampler<'_> {
         assert!(light.sizes().eq(self.world.view_sizes()), "light of the world's views");
         if !Arithmetic::Fixed.has_plan_of(self.filter.kind) {
             let texels: Vec<Rgba> = (0..light.len()).map(|texel| light.rgba(texel)).collect();
-            return codec.encode(&self.light(&texels, Rgba::TRANSPARENT, watch));
+            return codec.encode(&self.light((&texels, None), Rgba::TRANSPARENT, watch));
         }
         plan::render((self, None), FixedArithmetic { light, codec }, Level::new(), watch)
     }

@@ -86,6 +86,10 @@ impl SceneReader for Reader<'_> {
         let settings = ModelSettings { most: self.most(), ..settings };
         self.read_model(path, &settings).map_err(|error| error.to_string())
     }
+
+    fn tell(&mut self, path: &Path, note: &str) {
+        self.console.warning(format_args!("{}: {note}", path.display()));
+    }
 }
 
 /// Memory of a pixel of a picture on things, with its part of the pyramid.

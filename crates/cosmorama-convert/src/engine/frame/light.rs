@@ -1,8 +1,8 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use cosmorama::filter::FilterKind;
+use cosmorama::filter::{ClassicTables, FilterKind};
 use cosmorama::raster::{Decoder, FixedDecoder, FixedLight, FramePool, IrregularPixels, Rgba, Transfer};
 use cosmorama::world::{RimTexels, Source, World};
 use cosmorama_io::Carried;
@@ -17,6 +17,8 @@ use crate::source::{Files, Stamp};
 /// Light of a frame. Its memory, and views that do not change, are reused for the next frame.
 pub(crate) struct FrameLight {
     texels: Texels,
+    /// Tables that the filter makes of each world's light once for all pictures, as soon as one asks for them.
+    tables: Vec<OnceLock<Option<ClassicTables>>>,
     /// Counts of texels that are reported, by view.
     counts: Vec<Counts>,
     /// Texels of each view that its own rim cuts.
@@ -58,12 +60,31 @@ impl FrameLight {
         let decoder = Decoder::default();
         let flattened = BTreeSet::new();
         let (fixed_decoders, carried, read) = (Vec::new(), None, vec![None; rims.len()]);
-        Self { texels, counts, rims, flattened, is_fixed, has_still: false, decoder, fixed_decoders, carried, read }
+        let tables = vec![OnceLock::new(); job.worlds.len()];
+        Self {
+            texels,
+            tables,
+            counts,
+            rims,
+            flattened,
+            is_fixed,
+            has_still: false,
+            decoder,
+            fixed_decoders,
+            carried,
+            read,
+        }
     }
 
     /// Returns all texels.
     pub(crate) fn texels(&self) -> &Texels {
         &self.texels
+    }
+
+    /// Returns what the filter computes of a world's light once: for all pictures, faces and moments, until the light changes.
+    pub(crate) fn tables(&self, job: &ConvertJob, place: usize) -> Option<&ClassicTables> {
+        let Texels::Float(worlds) = &self.texels else { return None };
+        self.tables[place].get_or_init(|| job.filter.tables(&job.worlds[place], &worlds[place])).as_ref()
     }
 
     /// Returns the counts of texels that are reported, by view.
@@ -147,6 +168,9 @@ impl FrameLight {
     }
 
     fn decode(&mut self, job: &ConvertJob, images: &[ViewImage], stages: &Stages) -> Result<()> {
+        if !images.is_empty() {
+            self.tables.fill(OnceLock::new());
+        }
         let Self { texels, rims, decoder, fixed_decoders, .. } = self;
         let counts = match texels {
             Texels::Fixed(worlds) => {

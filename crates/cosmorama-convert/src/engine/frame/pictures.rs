@@ -15,8 +15,8 @@ use crate::engine::frame::behind::Behind;
 use crate::engine::geometry::arithmetic;
 use crate::engine::unfiltered::formula;
 use crate::engine::{
-    BalancedLight, FrameLight, LayerPass, Levels, LightMaps, LightReport, Posed, Shares, Texels, Writer, WriterOptions,
-    warnings,
+    BalancedLight, FrameLight, LayerPass, Levels, LightMaps, LightReport, Posed, Shares, Texels, WorldLight, Writer,
+    WriterOptions, warnings,
 };
 use crate::input::InputView;
 use crate::job::coverage::Coverage;
@@ -410,8 +410,9 @@ impl<'a> Engine<'a> {
             return if share.advance(1.0).is_break() { Err(self.stopped()) } else { Ok(image) };
         }
         let Texels::Float(worlds) = light.texels() else { bail!("light of 8 bits where floats were expected") };
-        let (resampler, texels) = (self.job.resampler(target).watched(&share), &worlds[target.world(worlds.len())]);
-        let texels = (texels.as_slice(), self.has_holes(light));
+        let (resampler, place) = (self.job.resampler(target).watched(&share), target.world(worlds.len()));
+        let tables = light.tables(self.job, place);
+        let texels = WorldLight { texels: &worlds[place], tables, has_holes: self.has_holes(light) };
         let made = posed.geometry.light(index, resampler, texels, background, &self.pool, balanced);
         made.map_err(|Stopped| self.stopped())
     }

@@ -1,4 +1,6 @@
-use cosmorama::filter::{FilterKind, FilterSettings, Labels};
+use std::sync::OnceLock;
+
+use cosmorama::filter::{ClassicTables, FilterKind, FilterSettings, Labels};
 use cosmorama::raster::{FramePool, Image, Rgba, Threads};
 use cosmorama::render::{Resampler, Stopped};
 use cosmorama_io::{Limits, Plane, PlaneSamples};
@@ -11,7 +13,7 @@ use super::{FilePlanes, ViewPlanes};
 use crate::colour::{LayerContent, LayerGroup};
 use crate::diagnostic::{ConvertError, Result, bail};
 use crate::engine::Shares;
-use crate::engine::{BalancedLight, FrameFile, Posed, Which};
+use crate::engine::{BalancedLight, FrameFile, Posed, Which, WorldLight};
 use crate::job::coverage::Coverage;
 use crate::job::{ConvertJob, FrameOutputs};
 use crate::packing::Place;
@@ -30,6 +32,8 @@ pub(crate) struct LayerPass<'a> {
 struct GroupTexels<'a> {
     group: &'a LayerGroup,
     worlds: &'a [Vec<Rgba>],
+    /// Tables that the filter makes of them once for all pictures, as soon as one asks for them.
+    tables: Vec<OnceLock<Option<ClassicTables>>>,
     labels: Option<LabelTexels<'a>>,
 }
 
@@ -51,7 +55,8 @@ impl LayerPass<'_> {
                     Some(labels) => labels.fill(job.layers.rules.labels, &mut worlds),
                     None => fill(job, group.content, &views, &mut worlds),
                 }
-                let texels = GroupTexels { group, worlds: &worlds, labels };
+                let tables = vec![OnceLock::new(); worlds.len()];
+                let texels = GroupTexels { group, worlds: &worlds, tables, labels };
                 for ((file, _), planes) in frame.files.iter().zip(&mut made) {
                     planes.extend(self.planes(&job.target.files[*file].sheet, &texels, shares)?);
                 }
@@ -138,7 +143,8 @@ impl LayerPass<'_> {
         let job = self.job;
         let target = &self.posed.views[index];
         let share = shares.next(&target.view);
-        let light = &texels.worlds[target.world(texels.worlds.len())];
+        let place = target.world(texels.worlds.len());
+        let light = &texels.worlds[place];
         let resampler = job.resampler(target);
         let made = if texels.labels.is_some() {
             let kind = FilterKind::Labels(job.layers.rules.labels);
@@ -147,7 +153,9 @@ impl LayerPass<'_> {
         } else {
             // Numbers that are no light have no total to keep, so that nothing is balanced, as with holes.
             let (watched, mut balanced) = (resampler.watched(&share), BalancedLight::default());
-            self.posed.geometry.light(index, watched, (light, true), Rgba::TRANSPARENT, self.pool, &mut balanced)
+            let tables = texels.tables[place].get_or_init(|| job.filter.tables(&job.worlds[place], light)).as_ref();
+            let light = WorldLight { texels: light, tables, has_holes: true };
+            self.posed.geometry.light(index, watched, light, Rgba::TRANSPARENT, self.pool, &mut balanced)
         };
         made.map_err(|Stopped| ConvertError::Stopped { done: 0, frames: job.outputs.frames.len() })
     }

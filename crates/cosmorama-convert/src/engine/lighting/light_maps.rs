@@ -1,3 +1,6 @@
+use std::sync::OnceLock;
+
+use cosmorama::filter::ClassicTables;
 use cosmorama::lighting::{AllTexels, LightFigures, Lobe, LobeAverages, PreparedLight};
 use cosmorama::raster::{Image, Rgba};
 use cosmorama::world::World;
@@ -14,6 +17,8 @@ pub(crate) struct LightMaps<'a> {
     settings: &'a LightSettings,
     texels: &'a [Vec<Rgba>],
     worlds: Vec<Box<dyn LobeAverages + 'a>>,
+    /// Tables that the filter of mirrors makes of each world's light once for all pictures, as soon as one asks for them.
+    tables: Vec<OnceLock<Option<ClassicTables>>>,
     /// Light of directions in which the worlds show nothing.
     unseen: Rgba,
 }
@@ -33,7 +38,8 @@ impl<'a> LightMaps<'a> {
         };
         let worlds: Vec<_> = job.worlds.iter().zip(lights).map(averages).collect();
         let unseen = light_of_unseen(job, worlds.iter().all(|world| world.is_complete()))?;
-        Ok(Some(Self { job, settings, texels: lights, worlds, unseen }))
+        let tables = vec![OnceLock::new(); worlds.len()];
+        Ok(Some(Self { job, settings, texels: lights, worlds, tables, unseen }))
     }
 
     /// Makes the map of the target view that follows those that are `made`.
@@ -75,8 +81,10 @@ impl<'a> LightMaps<'a> {
     }
 
     fn mirrored(&self, target: &TargetView) -> Image<Rgba> {
-        let texels = &self.texels[target.world(self.texels.len())];
-        self.job.resampler(target).render_over(texels, self.unseen)
+        let (job, place) = (self.job, target.world(self.texels.len()));
+        let texels = &self.texels[place];
+        let tables = self.tables[place].get_or_init(|| job.filter.tables(&job.worlds[place], texels)).as_ref();
+        job.resampler(target).render_by(tables, texels, self.unseen)
     }
 }
 

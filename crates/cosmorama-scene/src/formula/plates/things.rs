@@ -8,10 +8,10 @@ use cosmorama::sphere::{Angle, Orientation};
 use super::{Plates, Result};
 use crate::camera::{Camera, Place};
 use crate::material::{Finish, Material, Paint};
-use crate::model::Placing;
 use crate::picture::{Background, picture};
 use crate::scene::Scene;
 use crate::shade::{LightMaps, Surroundings};
+use crate::shape::Placing;
 
 /// Paper of the figures.
 const PAPER: Rgba = Rgba::opaque(0.9, 0.9, 0.88);

@@ -2,11 +2,13 @@ use cosmorama::sphere::Angle;
 use glam::{DVec2, DVec3, DVec4};
 use thiserror::Error;
 
+use super::Mesh;
+use super::body::{Body, Skin};
 use super::normals::made;
 use super::rim::Rims;
 use super::tangents::maps;
 use super::tree::{Corners, Tree};
-use super::{Mesh, Skin};
+use super::winding::wrongly_wound;
 
 /// A triangle, as files have it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,16 +56,20 @@ pub enum MeshError {
     TooMany(usize),
 }
 
-impl Mesh {
-    /// Most triangles of a mesh.
-    pub const MOST: usize = 1 << 28;
+impl Face {
+    /// Turns it round: its corners go around the other way.
+    fn turn(&mut self) {
+        self.corners.swap(1, 2);
+        self.normals.iter_mut().for_each(|all| all.swap(1, 2));
+        self.uvs.iter_mut().for_each(|all| all.swap(1, 2));
+        self.tangents.iter_mut().for_each(|all| all.swap(1, 2));
+    }
+}
 
-    /// Returns the mesh of some triangles. Those without area are left out, and counted.
-    ///
-    /// # Errors
-    /// When nothing is left, a corner is not finite, or there are more than [`Mesh::MOST`].
-    pub fn new(mut faces: Vec<Face>, normals: Normals) -> Result<Self, MeshError> {
-        if faces.len() > Self::MOST {
+impl Body {
+    /// Returns the surface of some triangles, perhaps with those turned that are wound the wrong way.
+    pub(super) fn new(mut faces: Vec<Face>, normals: Normals, is_mended: bool) -> Result<Self, MeshError> {
+        if faces.len() > Mesh::MOST {
             return Err(MeshError::TooMany(faces.len()));
         }
         for (face, Face { corners, .. }) in faces.iter().enumerate() {
@@ -78,9 +84,15 @@ impl Mesh {
             return Err(MeshError::Empty { skipped });
         }
         let corners: Vec<Corners> = faces.iter().map(|face| face.corners).collect();
-        let (tree, order) = Tree::new(&corners);
-        let faces: Vec<Face> = order.iter().map(|k| faces[*k as usize]).collect();
-        let welded = Welded::new(&faces);
+        let (mut tree, order) = Tree::new(&corners);
+        let mut faces: Vec<Face> = order.iter().map(|k| faces[*k as usize]).collect();
+        let mut welded = Welded::new(&faces);
+        let wrong = if is_mended { wrongly_wound(&welded, &tree) } else { Vec::new() };
+        for face in &wrong {
+            tree.turn(*face);
+            faces[*face].turn();
+            welded.corners[*face].swap(1, 2);
+        }
         let normals = made(&faces, &welded, normals);
         let maps = maps(&faces, &welded, &normals);
         let pieces = welded.pieces();
@@ -90,8 +102,8 @@ impl Mesh {
         let rims = Rims::new(&welded, &skins);
         let apex = tree.ball().centre;
         let volume = |[a, b, c]: &Corners| (a - apex).dot((b - apex).cross(c - apex)) / 6.0;
-        let volume = corners.iter().map(volume).sum();
-        Ok(Self { tree, skins, maps, rims, skipped, volume })
+        let volume = faces.iter().map(|face| volume(&face.corners)).sum();
+        Ok(Self { tree, skins, maps, rims, skipped, turned: wrong.len(), volume })
     }
 }
 
@@ -104,6 +116,9 @@ fn is_place(point: DVec3) -> bool {
 fn has_area([a, b, c]: &Corners) -> bool {
     (b - a).cross(c - a).length_squared() > 0.0
 }
+
+/// An edge of one triangle: its ends, the lower number first, the triangle, and whether it runs from the lower to the higher.
+pub(super) type Half = ([u32; 2], u32, bool);
 
 /// Triangles whose corners are numbered: those at one place have one number.
 pub(super) struct Welded {
@@ -126,6 +141,19 @@ impl Welded {
             corners[*index as usize / 3][*index as usize % 3] = points.len() as u32 - 1;
         }
         Self { points, corners }
+    }
+
+    /// Lists the edges of all triangles, those at one place side by side.
+    pub(super) fn halves(&self) -> Vec<Half> {
+        let half = |(face, corners): (usize, &[u32; 3])| {
+            [0, 1, 2].map(|k| {
+                let (a, b) = (corners[k], corners[(k + 1) % 3]);
+                ([a.min(b), a.max(b)], face as u32, a < b)
+            })
+        };
+        let mut halves: Vec<Half> = self.corners.iter().enumerate().flat_map(half).collect();
+        halves.sort_unstable();
+        halves
     }
 
     /// Numbers the pieces that hang together, for each triangle.

@@ -1,7 +1,7 @@
 use glam::DVec3;
 
-use super::Skin;
-use super::build::Welded;
+use super::body::Skin;
+use super::build::{Half, Welded};
 
 /// An edge at which the surface may end for an eye, or break off.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,19 +39,9 @@ enum Kind {
 /// Cosine of the angle between normals from which an edge is a crease: half a degree.
 const CREASE: f64 = 0.99996;
 
-/// An edge of one triangle: its ends, the lower number first, the triangle, and whether it runs from the lower to the higher.
-type Half = ([u32; 2], u32, bool);
-
 impl Rims {
     pub(super) fn new(welded: &Welded, skins: &[Skin]) -> Self {
-        let half = |(face, corners): (usize, &[u32; 3])| {
-            [0, 1, 2].map(|k| {
-                let (a, b) = (corners[k], corners[(k + 1) % 3]);
-                ([a.min(b), a.max(b)], face as u32, a < b)
-            })
-        };
-        let mut halves: Vec<Half> = welded.corners.iter().enumerate().flat_map(half).collect();
-        halves.sort_unstable();
+        let halves = welded.halves();
         let is_crease = |a: &Half, b: &Half| {
             let [one, other] = [a, b].map(|half| &skins[half.1 as usize]);
             let at = |half: &Half, end: u32| {

@@ -60,6 +60,22 @@ impl Tree {
         &self.corners[face]
     }
 
+    /// Turns a triangle round, by its place in the tree.
+    pub(super) fn turn(&mut self, face: usize) {
+        self.corners[face].swap(1, 2);
+    }
+
+    /// Calls `visit` with each triangle that a ray meets.
+    pub(super) fn each_met(&self, ray: &Ray, mut visit: impl FnMut(usize)) {
+        let Some(start) = self.start(ray) else { return };
+        self.boxes.ray_traverse(self.local(ray, start), &mut RayHit::none(), |_, face| {
+            if meet(ray, &self.corners[face]).is_some_and(|(distance, _)| distance > 0.0) {
+                visit(face);
+            }
+            f32::INFINITY
+        });
+    }
+
     /// Returns whether a ray meets any triangle beyond a distance.
     pub(super) fn is_met(&self, ray: &Ray, beyond: f64) -> bool {
         let Some(start) = self.start(ray) else { return false };

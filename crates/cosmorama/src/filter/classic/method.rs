@@ -1,12 +1,13 @@
+use super::tables::Tables;
 use crate::filter::Kernel;
-use crate::filter::traits::{PrepareError, Prepared, SetupCost};
+use crate::filter::traits::{PrepareError, SetupCost};
 use crate::raster::Rgba;
 use crate::world::World;
 
 /// Method of a filter of the table, before it meets a world.
 pub(super) trait Method {
     /// Prepares the filter for texels in the order of a world's light, all of them finite.
-    fn prepare<'w>(self: Box<Self>, world: &'w World, light: &'w [Rgba]) -> Box<dyn Prepared + 'w>;
+    fn tables(self: Box<Self>, world: &World, light: &[Rgba]) -> Box<dyn Tables>;
 
     /// Returns the cost of preparing the filter.
     fn setup(&self, _world: &World) -> SetupCost {

@@ -11,10 +11,12 @@ mod feibush_levoy_cook;
 mod gangnet;
 mod method;
 mod prefiltered;
+mod tables;
 mod two_pass;
 mod weighing;
 
 pub use prefiltered::IntegrationOrder;
+pub use tables::ClassicTables;
 pub(crate) use two_pass::{Passes, TwoPass};
 
 use super::Kernel;
@@ -133,9 +135,9 @@ impl WeighedClassic {
         Kernel { scale: self.method().reach().max(2.0), ..Kernel::ADAPTIVE }
     }
 
-    /// Prepares the filter for texels in the order of a world's light, all of them finite.
-    pub(crate) fn of_texels<'w>(&self, world: &'w World, light: &'w [Rgba]) -> Box<dyn Prepared + 'w> {
-        self.method().prepare(world, light)
+    /// Makes the filter's tables of texels in the order of a world's light, all of them finite.
+    pub fn tables(&self, world: &World, light: &[Rgba]) -> ClassicTables {
+        ClassicTables::new(self.method().tables(world, light))
     }
 
     fn method(&self) -> Box<dyn Method> {
@@ -147,7 +149,7 @@ impl Filter for WeighedClassic {
     fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, PrepareError> {
         light.check(world)?;
         self.check(world)?;
-        Ok(self.of_texels(world, light.texels()))
+        Ok(self.tables(world, light.texels()).over(world, light.texels()))
     }
 
     fn setup(&self, world: &World) -> SetupCost {

@@ -80,6 +80,11 @@ impl<'w> Levels<'w> {
         level.checked_sub(1).map_or((self.world, self.light), |at| (&self.coarser[at].0, &self.coarser[at].1))
     }
 
+    /// Returns the halved worlds and their light, from level 1 on.
+    pub(crate) fn into_coarser(self) -> Vec<(World, Vec<Rgba>)> {
+        self.coarser
+    }
+
     /// Returns the number of the coarsest level.
     pub(crate) fn coarsest(&self) -> usize {
         self.coarser.len()

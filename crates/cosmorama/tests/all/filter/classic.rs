@@ -3,6 +3,7 @@
 use cosmorama::camera::{Footprint, PixelPoint};
 use cosmorama::filter::{Classic, CrossSection, Filter, FilterKind, FilterSettings, Kernel};
 use cosmorama::raster::Rgba;
+use cosmorama::render::Resampler;
 use cosmorama::sphere::{CubeFace, Direction};
 use cosmorama::world::{Light, World};
 use glam::{DMat2, DVec2, DVec3};
@@ -199,6 +200,26 @@ fn edges_of_views_do_not_show() {
             let expected = footprint.direction.vector().to_array().map(|at| 0.5 + 0.5 * at);
             let error = (0..3).map(|c| (f64::from(found.0[c]) - expected[c]).abs()).fold(0.0, f64::max);
             assert!(error < bound, "{classic:?} at ({i}, {j}): {error}");
+        }
+    }
+}
+
+/// Makes the faces of a cube from black light by the tables of white light: a picture that made tables anew would be black.
+#[test]
+fn whole_pictures_are_made_of_tables_that_were_made_before() {
+    let world = narrow();
+    let [black, white] = [0.0, 1.0].map(|value| grey(&world, |_, _| value));
+    for classic in Classic::ALL {
+        let filter = FilterSettings { kind: FilterKind::Classic(*classic), ..FilterSettings::DEFAULT };
+        let tables = filter.tables(&world, white.texels());
+        assert_eq!(tables.is_some(), filter.has_tables(), "{classic:?}");
+        let view = perspective(4, 4, 0.005, 0.0, 0.0, 0.0);
+        let resampler = Resampler::new(&world, &view).by(filter);
+        let made = resampler.render_by(tables.as_ref(), white.texels(), Rgba::BLACK);
+        assert_eq!(made.pixels(), resampler.render_over(white.texels(), Rgba::BLACK).pixels(), "{classic:?}");
+        if matches!(classic, Classic::SummedArea | Classic::RepeatedIntegration(_)) {
+            let made = resampler.render_by(tables.as_ref(), black.texels(), Rgba::BLACK);
+            assert!(made.pixels().iter().all(|pixel| (pixel.0[0] - 1.0).abs() < 1e-3), "{classic:?}");
         }
     }
 }

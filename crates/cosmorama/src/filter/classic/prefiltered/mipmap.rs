@@ -1,9 +1,10 @@
 use crate::camera::Footprint;
 use crate::filter::classic::method::Method;
+use crate::filter::classic::tables::{Lit, Tables};
 use crate::filter::ewa_pyramid::Levels;
 use crate::filter::lookup;
 use crate::filter::reference::look;
-use crate::filter::traits::{Prepared, SetupCost, bounded};
+use crate::filter::traits::SetupCost;
 use crate::raster::Rgba;
 use crate::world::World;
 
@@ -18,8 +19,8 @@ pub(in crate::filter::classic) enum MipMap {
 }
 
 impl Method for MipMap {
-    fn prepare<'w>(self: Box<Self>, world: &'w World, light: &'w [Rgba]) -> Box<dyn Prepared + 'w> {
-        Box::new(PreparedMipMap { levels: Levels::new(world, light), choice: *self })
+    fn tables(self: Box<Self>, world: &World, light: &[Rgba]) -> Box<dyn Tables> {
+        Box::new(Squares { coarser: Levels::new(world, light).into_coarser(), choice: *self })
     }
 
     fn setup(&self, world: &World) -> SetupCost {
@@ -27,45 +28,45 @@ impl Method for MipMap {
     }
 }
 
-struct PreparedMipMap<'w> {
-    levels: Levels<'w>,
+/// Averages of squares of texels.
+struct Squares {
+    /// Halved worlds and their light, from level 1 on.
+    coarser: Vec<(World, Vec<Rgba>)>,
     choice: MipMap,
 }
 
-impl PreparedMipMap<'_> {
+impl Squares {
     /// Returns the level whose texels are as wide as the longer derivative, in the view that shows the middle.
-    fn level(&self, footprint: &Footprint) -> f64 {
-        let (world, _) = self.levels.get(0);
+    fn level(&self, world: &World, footprint: &Footprint) -> f64 {
         let owner = world.owner(footprint.direction);
         let seen = owner.and_then(|(view, _)| world.sources()[view].view.texel_footprint(footprint));
         let longer = seen.map_or(1.0, |(_, jacobian)| jacobian.x_axis.length().max(jacobian.y_axis.length()));
-        longer.max(1.0).log2().min(self.levels.coarsest() as f64)
+        longer.max(1.0).log2().min(self.coarser.len() as f64)
+    }
+
+    /// Returns a level's world and its light.
+    fn get<'a>(&'a self, of: Lit<'a>, level: usize) -> Lit<'a> {
+        level.checked_sub(1).map_or(of, |at| Lit { world: &self.coarser[at].0, light: &self.coarser[at].1 })
     }
 }
 
-impl Prepared for PreparedMipMap<'_> {
-    fn world(&self) -> &World {
-        self.levels.get(0).0
-    }
-
-    fn reads(&self, footprint: &Footprint) -> usize {
-        let Some(footprint) = bounded(footprint) else { return 0 };
-        let level = self.level(&footprint);
+impl Tables for Squares {
+    fn reads(&self, of: Lit, footprint: &Footprint) -> usize {
+        let level = self.level(of.world, footprint);
         match self.choice {
             MipMap::Nearest => 1,
             MipMap::Trilinear => {
                 let levels = level as usize..=level.ceil() as usize;
-                levels.map(|level| lookup::reads(self.levels.get(level).0, footprint.direction)).sum()
+                levels.map(|level| lookup::reads(self.get(of, level).world, footprint.direction)).sum()
             }
         }
     }
 
-    fn average(&self, footprint: &Footprint) -> Rgba {
-        let Some(footprint) = bounded(footprint) else { return Rgba::TRANSPARENT };
-        let level = self.level(&footprint);
+    fn average(&self, of: Lit, footprint: &Footprint) -> Rgba {
+        let level = self.level(of.world, footprint);
         match self.choice {
             MipMap::Nearest => {
-                let (world, light) = self.levels.get(level.round() as usize);
+                let Lit { world, light } = self.get(of, level.round() as usize);
                 let mut found = Rgba::TRANSPARENT;
                 lookup::nearest(world, footprint.direction, |texel, _| found = light[texel as usize]);
                 found
@@ -73,7 +74,7 @@ impl Prepared for PreparedMipMap<'_> {
             MipMap::Trilinear => {
                 let (finer, part) = (level as usize, level.fract() as f32);
                 let at = |level| {
-                    let (world, light) = self.levels.get(level);
+                    let Lit { world, light } = self.get(of, level);
                     look(world, footprint.direction, light).unwrap_or_default()
                 };
                 if part > 0.0 { at(finer) * (1.0 - part) + at(finer + 1) * part } else { at(finer) }

@@ -4,9 +4,10 @@ use rayon::prelude::*;
 
 use crate::camera::Footprint;
 use crate::filter::classic::method::Method;
+use crate::filter::classic::tables::{Lit, Tables};
 use crate::filter::classic::weighing::reached;
 use crate::filter::reference::look;
-use crate::filter::traits::{LEAST_BITS, PrepareError, Prepared, SetupCost, bounded};
+use crate::filter::traits::{LEAST_BITS, PrepareError, SetupCost};
 use crate::raster::Rgba;
 use crate::world::{Source, World};
 
@@ -45,9 +46,9 @@ impl IntegrationOrder {
 }
 
 impl Method for RepeatedIntegration {
-    fn prepare<'w>(self: Box<Self>, world: &'w World, light: &'w [Rgba]) -> Box<dyn Prepared + 'w> {
+    fn tables(self: Box<Self>, world: &World, light: &[Rgba]) -> Box<dyn Tables> {
         let table = |source: &Source| Table::new(source, &light[source.texels()], self.0.get());
-        Box::new(PreparedIntegrals { world, light, tables: world.sources().iter().map(table).collect() })
+        Box::new(Integrals(world.sources().iter().map(table).collect()))
     }
 
     fn setup(&self, world: &World) -> SetupCost {
@@ -73,11 +74,8 @@ impl Method for RepeatedIntegration {
     }
 }
 
-struct PreparedIntegrals<'w> {
-    world: &'w World,
-    light: &'w [Rgba],
-    tables: Vec<Table>,
-}
+/// Sums of a world's views.
+struct Integrals(Vec<Table>);
 
 /// Numbers that are summed: light of four channels times solid angle, and the solid angle.
 type Sums = [i128; 5];
@@ -286,27 +284,21 @@ fn integrate_row<const N: usize>(row: &mut [[i128; N]], sum: &mut [[i128; N]]) {
     }
 }
 
-impl Prepared for PreparedIntegrals<'_> {
-    fn world(&self) -> &World {
-        self.world
-    }
-
-    fn reads(&self, footprint: &Footprint) -> usize {
+impl Tables for Integrals {
+    fn reads(&self, of: Lit, footprint: &Footprint) -> usize {
         /// Places and widths that are interpolated.
         const BETWEEN: usize = 16;
-        let Some(footprint) = bounded(footprint) else { return 0 };
-        let views = self.world.sources().iter().zip(&self.tables);
-        let reached = views.filter(|(source, _)| reached(source, &footprint, 1.0).is_some());
+        let views = of.world.sources().iter().zip(&self.0);
+        let reached = views.filter(|(source, _)| reached(source, footprint, 1.0).is_some());
         reached.map(|(_, table)| BETWEEN * (table.columns.order + 1).pow(2)).sum()
     }
 
-    fn average(&self, footprint: &Footprint) -> Rgba {
+    fn average(&self, of: Lit, footprint: &Footprint) -> Rgba {
         /// Part of a texel below which what a kernel reaches is rounding.
         const LEAST: f64 = 1e-9;
-        let Some(footprint) = bounded(footprint) else { return Rgba::TRANSPARENT };
         let (mut sum, mut least) = ([0.0; 5], f64::INFINITY);
-        for (source, table) in self.world.sources().iter().zip(&self.tables) {
-            let Some(seen) = reached(source, &footprint, 1.0) else { continue };
+        for (source, table) in of.world.sources().iter().zip(&self.0) {
+            let Some(seen) = reached(source, footprint, 1.0) else { continue };
             let size = seen.half_box() * 2.0;
             let size = [size.x.clamp(1.0, table.columns.widest()), size.y.clamp(1.0, table.rows.widest())];
             let x = if source.period.is_some() {
@@ -323,7 +315,7 @@ impl Prepared for PreparedIntegrals<'_> {
         if solid_angle > least {
             return Rgba([red, green, blue, alpha].map(|channel| (channel / solid_angle) as f32));
         }
-        look(self.world, footprint.direction, self.light).unwrap_or_default()
+        look(of.world, footprint.direction, of.light).unwrap_or_default()
     }
 }
 

@@ -3,9 +3,10 @@ use rayon::prelude::*;
 
 use crate::camera::Footprint;
 use crate::filter::classic::method::Method;
+use crate::filter::classic::tables::{Lit, Tables};
 use crate::filter::classic::weighing::reached;
 use crate::filter::reference::look;
-use crate::filter::traits::{Prepared, SetupCost, bounded};
+use crate::filter::traits::SetupCost;
 use crate::filter::{CrossSection, Kernel};
 use crate::raster::Rgba;
 use crate::world::{Source, World};
@@ -21,9 +22,9 @@ use crate::world::{Source, World};
 pub(in crate::filter::classic) struct SummedArea;
 
 impl Method for SummedArea {
-    fn prepare<'w>(self: Box<Self>, world: &'w World, light: &'w [Rgba]) -> Box<dyn Prepared + 'w> {
-        let tables = world.sources().par_iter().map(|source| Table::new(source, &light[source.texels()])).collect();
-        Box::new(PreparedSummedArea { world, light, tables })
+    fn tables(self: Box<Self>, world: &World, light: &[Rgba]) -> Box<dyn Tables> {
+        let table = |source: &Source| Table::new(source, &light[source.texels()]);
+        Box::new(TablesOfViews(world.sources().par_iter().map(table).collect()))
     }
 
     fn setup(&self, world: &World) -> SetupCost {
@@ -37,11 +38,8 @@ impl Method for SummedArea {
     }
 }
 
-struct PreparedSummedArea<'w> {
-    world: &'w World,
-    light: &'w [Rgba],
-    tables: Vec<Table>,
-}
+/// Tables of a world's views.
+struct TablesOfViews(Vec<Table>);
 
 /// Numbers that are summed: light of four channels times solid angle, and the solid angle.
 type Sums = [f64; 5];
@@ -108,26 +106,20 @@ impl Table {
     }
 }
 
-impl Prepared for PreparedSummedArea<'_> {
-    fn world(&self) -> &World {
-        self.world
-    }
-
-    fn reads(&self, footprint: &Footprint) -> usize {
+impl Tables for TablesOfViews {
+    fn reads(&self, of: Lit, footprint: &Footprint) -> usize {
         /// Entries around each corner of a rectangle; a rectangle across a panorama's ends reads two more for each.
         const ENTRIES: usize = 4 * 4;
-        let Some(footprint) = bounded(footprint) else { return 0 };
-        ENTRIES * self.world.sources().iter().filter(|source| reached(source, &footprint, 1.0).is_some()).count()
+        ENTRIES * of.world.sources().iter().filter(|source| reached(source, footprint, 1.0).is_some()).count()
     }
 
-    fn average(&self, footprint: &Footprint) -> Rgba {
+    fn average(&self, of: Lit, footprint: &Footprint) -> Rgba {
         /// Part of a texel below which the edge of a rectangle is rounding.
         const LEAST: f64 = 1e-9;
-        let Some(footprint) = bounded(footprint) else { return Rgba::TRANSPARENT };
         let mut sum = [0.0; 5];
         let mut least = f64::INFINITY;
-        for (source, table) in self.world.sources().iter().zip(&self.tables) {
-            let Some(seen) = reached(source, &footprint, 1.0) else { continue };
+        for (source, table) in of.world.sources().iter().zip(&self.0) {
+            let Some(seen) = reached(source, footprint, 1.0) else { continue };
             // No narrower than a texel, so that two neighbours are interpolated where a picture is enlarged.
             let round = if table.is_round { 0.5 * table.columns as f64 } else { f64::INFINITY };
             let half = seen.half_box().max(DVec2::splat(0.5)).min(DVec2::new(round, f64::INFINITY));
@@ -139,7 +131,7 @@ impl Prepared for PreparedSummedArea<'_> {
         if solid_angle > least {
             return Rgba([red, green, blue, alpha].map(|channel| (channel / solid_angle) as f32));
         }
-        look(self.world, footprint.direction, self.light).unwrap_or_default()
+        look(of.world, footprint.direction, of.light).unwrap_or_default()
     }
 }
 

@@ -3,9 +3,9 @@ use glam::{DMat2, DMat3, DVec2, DVec3};
 use crate::camera::{Footprint, PixelPoint};
 use crate::filter::Kernel;
 use crate::filter::classic::method::Method;
+use crate::filter::classic::tables::{Lit, Tables};
 use crate::filter::gather::ellipse::widened;
 use crate::filter::reference::look;
-use crate::filter::traits::{Prepared, bounded};
 use crate::raster::Rgba;
 use crate::world::{Source, World};
 
@@ -237,8 +237,8 @@ impl<R: Region> Weighing for R {
 }
 
 impl<W: Weighing + 'static> Method for W {
-    fn prepare<'w>(self: Box<Self>, world: &'w World, light: &'w [Rgba]) -> Box<dyn Prepared + 'w> {
-        Box::new(Weighed { world, light, weighing: *self })
+    fn tables(self: Box<Self>, _world: &World, _light: &[Rgba]) -> Box<dyn Tables> {
+        Box::new(Weighed(*self))
     }
 
     fn kernel(&self) -> Option<Kernel> {
@@ -250,36 +250,26 @@ impl<W: Weighing + 'static> Method for W {
     }
 }
 
-/// Texels of a world's light, to be weighed.
-struct Weighed<'w, W> {
-    world: &'w World,
-    light: &'w [Rgba],
-    weighing: W,
-}
+/// A rule that has no tables of light.
+struct Weighed<W>(W);
 
-impl<W: Weighing> Prepared for Weighed<'_, W> {
-    fn world(&self) -> &World {
-        self.world
-    }
-
-    fn reads(&self, footprint: &Footprint) -> usize {
-        let Some(footprint) = bounded(footprint) else { return 0 };
+impl<W: Weighing> Tables for Weighed<W> {
+    fn reads(&self, of: Lit, footprint: &Footprint) -> usize {
         let mut count = 0;
-        self.weighing.for_each_texel(self.world, &footprint, |_, _| count += 1);
+        self.0.for_each_texel(of.world, footprint, |_, _| count += 1);
         count
     }
 
-    fn average(&self, footprint: &Footprint) -> Rgba {
-        let Some(footprint) = bounded(footprint) else { return Rgba::TRANSPARENT };
+    fn average(&self, of: Lit, footprint: &Footprint) -> Rgba {
         let (mut sum, mut weights) = ([0f64; 4], 0f64);
-        self.weighing.for_each_texel(self.world, &footprint, |texel, weight| {
-            for (sum, channel) in sum.iter_mut().zip(self.light[texel].0) {
+        self.0.for_each_texel(of.world, footprint, |texel, weight| {
+            for (sum, channel) in sum.iter_mut().zip(of.light[texel].0) {
                 *sum += weight * f64::from(channel);
             }
             weights += weight;
         });
         let mean = || Rgba(sum.map(|channel| (channel / weights) as f32));
-        if weights > 0.0 { mean() } else { look(self.world, footprint.direction, self.light).unwrap_or_default() }
+        if weights > 0.0 { mean() } else { look(of.world, footprint.direction, of.light).unwrap_or_default() }
     }
 }
 
