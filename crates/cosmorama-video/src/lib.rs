@@ -22,7 +22,9 @@ pub use error::VideoError;
 pub use ffmpeg::{Ffmpeg, Version};
 pub use probe::{Announced, AnnouncedBy, CutShort, OtherStream, StreamKind, Timeline, Turn, VideoInfo};
 pub use ratio::Ratio;
-pub use read::{Damaged, Fault, FrameCondition, PairedReader, ReadOptions, SecondHalf, VideoFrame, VideoReader};
+pub use read::{
+    Damaged, Fault, FrameCondition, HalfPlace, PairedReader, ReadOptions, SecondHalf, VideoFrame, VideoReader,
+};
 pub use spatial::{Bounds, SpatialTags, SphericalPose, SphericalProjection, StereoMode};
 pub use stream::{ByteOrder, PamReader, PamWriter, PfmReader, PfmWriter, Subsampling, Y4mFormat, Y4mReader, Y4mWriter};
 pub use write::{Carried, Codec, Container, FrameTimes, VideoWriter, WriteSettings, Written};

@@ -14,7 +14,6 @@ use super::working::{Working, clips, white_of};
 use crate::diagnostic::{BACKGROUND, Code, DEPTH, Diagnostic, MISSING, Result, usage_as};
 use crate::input::Input;
 use crate::settings::{Conversion, LightNormalisation, LightScale, LightSettings};
-use crate::source::video::MadeVideos;
 use crate::target::Target;
 
 /// Transfer functions and primaries of inputs and outputs, and the outputs' channels and depth.
@@ -236,9 +235,11 @@ fn channels(
     let alpha = transparent || headers.iter().any(|header| header.channels.has_alpha());
     let plain = if colour { Channels::Rgb } else { Channels::Grey };
     let wanted = if alpha { plain.with_alpha() } else { plain };
-    let possible = match target.format {
-        Format::Video if wanted.has_alpha() && keeps_alpha(args, headers) => Channels::Rgba,
-        format => format.nearest_channels(wanted),
+    let is_deep = headers.iter().map(|header| header.depth).chain(args.depth).any(|depth| depth != Depth::Eight);
+    let possible = if wanted.has_alpha() && target.is_video_with_alpha(args, is_deep) {
+        Channels::Rgba
+    } else {
+        target.format.nearest_channels(wanted)
     };
     if wanted.has_alpha() && !possible.has_alpha() {
         if transparent {
@@ -255,12 +256,6 @@ fn channels(
         warnings.push(Diagnostic::warning(Code::AlphaLost, message));
     }
     Ok(possible)
-}
-
-/// Returns whether the video that is made keeps alpha.
-fn keeps_alpha(args: &Conversion, headers: &[&Header]) -> bool {
-    let is_deep = headers.iter().map(|header| header.depth).chain(args.depth).any(|depth| depth != Depth::Eight);
-    MadeVideos::holds_alpha(Path::new(&args.output), args.video.codec.as_deref(), is_deep)
 }
 
 /// Returns the deeper of two sample types.

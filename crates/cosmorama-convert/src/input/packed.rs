@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use cosmorama::camera::{FisheyeFit, LensCircle, LensScale};
+use cosmorama::camera::{Canvas, FisheyeFit, LensCircle, LensScale};
 use cosmorama::layout::{Arrangement, DualFisheye, DualLens};
 use cosmorama::sphere::Orientation;
 use cosmorama_io::Header;
@@ -66,13 +66,20 @@ fn views(files: &ViewFiles, header: &Header, pieces: &[Piece]) -> Result<Vec<Inp
     let wrong = |error| usage(format!("{FROM}: {error}"));
     let view = |piece: &Piece| {
         let rect = piece.rect;
+        let view = piece.view(Orientation::IDENTITY).map_err(wrong)?;
+        // The other half of a divided face is a view of its own, which nothing lacks.
+        let (nominal, canvas) = if piece.is_divided {
+            (view.clone(), Canvas { width: rect.width(), height: rect.height(), left: 0, top: 0 })
+        } else {
+            (piece.nominal().map_err(wrong)?, piece.canvas)
+        };
         Ok(InputView {
             name: piece.name.to_owned(),
             files: files.clone(),
             part: Some(Place { corner: (rect.left, rect.top), of: (header.width, header.height) }),
             header: Some(Header { width: rect.width(), height: rect.height(), ..header.clone() }),
-            nominal: piece.nominal().map_err(wrong)?,
-            window: Some((piece.view(Orientation::IDENTITY).map_err(wrong)?, piece.canvas)),
+            nominal,
+            window: Some((view, canvas)),
             blend: piece.blend,
             mask: None,
             wanted: true,

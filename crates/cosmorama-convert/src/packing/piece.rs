@@ -20,6 +20,8 @@ pub(crate) struct Piece {
     pub(crate) placement: Placement,
     /// Whole picture, of which half a cube may use only a part.
     pub(crate) canvas: Canvas,
+    /// Whether it is one of two halves of a face, which overlap.
+    pub(crate) is_divided: bool,
     /// Blending with others that show the same directions.
     pub(crate) blend: Blend,
 }
@@ -39,6 +41,7 @@ impl Piece {
             rect,
             placement: face_placement(cube, face, lies, Some(canvas), Orientation::IDENTITY),
             canvas,
+            is_divided: shared > Angle::ZERO && rect.width() < canvas.width,
             blend,
         };
         let wanted = layout.faces(edge).into_iter().filter(|placed| cube.faces.contains(&placed.face));
@@ -51,7 +54,8 @@ impl Piece {
             let canvas = Canvas { width: rect.width(), height: rect.height(), left: 0, top: 0 };
             let orientation = placement.orientation.within(dual.orientation);
             let placement = Placement { orientation, canvas: Some(canvas), ..placement };
-            Self { name: side.name(), face: None, rect, placement, canvas, blend: dual.picture.blend() }
+            let blend = dual.picture.blend();
+            Self { name: side.name(), face: None, rect, placement, canvas, is_divided: false, blend }
         };
         Ok(dual.picture.lenses(width, height, dual.mirror)?.map(piece).into())
     }

@@ -7,9 +7,9 @@ use cosmorama_spec::{Cube, Packing, Shape, Size, Spec};
 
 use crate::diagnostic::{Code, MIPS, Result, SIZE, TO, usage, usage_as};
 use crate::packing::Place;
-use crate::settings::GeometrySettings;
+use crate::settings::{Conversion, GeometrySettings};
 use crate::source::ViewFiles;
-use crate::source::video::{RawKind, is_video};
+use crate::source::video::{MadeVideos, RawKind, is_video};
 use crate::target::Picture;
 use crate::target::picture::world_of;
 
@@ -73,6 +73,14 @@ pub(crate) struct Target {
     pub(crate) envmap: Option<EnvMap>,
     /// Whole panorama of which the file is a part, or all.
     pub(crate) panorama: Option<Window>,
+}
+
+impl Target {
+    /// Returns whether its files are videos that keep alpha, by their names and the codec that is chosen.
+    pub(crate) fn is_video_with_alpha(&self, settings: &Conversion, is_deep: bool) -> bool {
+        let codec = settings.video.codec.as_deref();
+        self.format == Format::Video && MadeVideos::holds_alpha(Path::new(&settings.output), codec, is_deep)
+    }
 }
 
 impl Target {

@@ -16,7 +16,6 @@ use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 
 use tempfile::{Builder, TempDir, TempPath};
@@ -30,7 +29,7 @@ use crate::IoError;
 const PREFIX: &str = ".cosmorama-";
 const SUFFIX: &str = ".part";
 
-/// List of temporary files in progress, and of programs that work for them. Clones share the list.
+/// List of temporary files in progress, and of work elsewhere that is done for them. Clones share the list.
 #[derive(Clone, Debug, Default)]
 pub struct Unfinished(Arc<Mutex<Listing>>);
 
@@ -43,17 +42,22 @@ struct Listing {
     folders: BTreeSet<PathBuf>,
     /// Folders in which files of killed programs have been sought.
     swept: BTreeSet<PathBuf>,
-    /// Programs that were started and are still needed.
-    programs: Vec<Weak<Mutex<Child>>>,
+    /// Work elsewhere that was begun and is still needed.
+    elsewhere: Vec<Weak<dyn Elsewhere>>,
+}
+
+/// Work outside this process, such as that of a program, which an interrupt ends.
+pub trait Elsewhere: std::fmt::Debug + Send + Sync {
+    /// Ends the work, and waits until it has ended. It may have ended before.
+    fn end(&self);
 }
 
 impl Unfinished {
-    /// Deletes all temporary files on the list and empty new folders, and ends the programs on it, for interrupt handlers. The
-    /// program must end next: from now on, whoever begins, finishes or abandons a file or a program of this list blocks until it
-    /// does. So nothing appears after the removal, and no writer's failure is reported in place of the interrupt.
+    /// Deletes all temporary files on the list and empty new folders, and ends work elsewhere, for interrupt handlers. The program
+    /// must end next: from now on, whoever begins, finishes or abandons a file or a work of this list blocks until it does. So nothing appears after the removal, and no writer's failure is reported in place of the interrupt.
     pub fn remove_all(&self) {
         let listing = self.listing();
-        end_all(&listing.programs);
+        listing.elsewhere.iter().filter_map(Weak::upgrade).for_each(|work| work.end());
         for path in &listing.paths {
             // Whether a file is already gone does not matter.
             let _ = if path.is_dir() { std::fs::remove_dir_all(path) } else { std::fs::remove_file(path) };
@@ -65,20 +69,21 @@ impl Unfinished {
         std::mem::forget(listing);
     }
 
-    /// Starts a program, which [`Unfinished::remove_all`] ends.
+    /// Begins work elsewhere, which [`Unfinished::remove_all`] ends.
     ///
     /// # Errors
-    /// When it cannot be started.
-    pub fn start(&self, command: &mut Command) -> io::Result<Arc<Mutex<Child>>> {
+    /// When it cannot be begun.
+    pub fn begin<T: Elsewhere + 'static>(&self, begin: impl FnOnce() -> io::Result<T>) -> io::Result<Arc<T>> {
         let mut listing = self.listing();
-        let program = Arc::new(Mutex::new(command.spawn()?));
-        listing.programs.retain(|other| other.strong_count() > 0);
-        listing.programs.push(Arc::downgrade(&program));
-        Ok(program)
+        let work = Arc::new(begin()?);
+        listing.elsewhere.retain(|other| other.strong_count() > 0);
+        let listed: Arc<dyn Elsewhere> = work.clone();
+        listing.elsewhere.push(Arc::downgrade(&listed));
+        Ok(work)
     }
 
-    /// Goes on if programs are still wanted. Whoever sees a program end calls this before it is told as a failure: once
-    /// [`Unfinished::remove_all`] has ended all programs, it blocks.
+    /// Goes on if work elsewhere is still wanted. Whoever sees some end calls this before it is told as a failure: once
+    /// [`Unfinished::remove_all`] has ended all, it blocks.
     pub fn go_on(&self) {
         drop(self.listing());
     }
@@ -102,17 +107,6 @@ impl Unfinished {
         listing.paths.insert(path.clone());
         Ok((made, Listed { path, list: self.clone() }))
     }
-}
-
-/// Ends programs, and waits for all of them.
-fn end_all(programs: &[Weak<Mutex<Child>>]) {
-    let running: Vec<_> = programs.iter().filter_map(Weak::upgrade).collect();
-    let each = |act: fn(&mut Child)| {
-        running.iter().for_each(|program| act(&mut program.lock().unwrap_or_else(PoisonError::into_inner)));
-    };
-    // One that has ended already cannot be ended again, which does not matter.
-    each(|program| drop(program.kill()));
-    each(|program| drop(program.wait()));
 }
 
 /// A temporary folder for private files. It is deleted when dropped, and by [`Unfinished::remove_all`].

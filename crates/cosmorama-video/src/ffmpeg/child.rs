@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-use cosmorama_io::pending::Unfinished;
+use cosmorama_io::pending::{Elsewhere, Unfinished};
 
 use crate::VideoError;
 
@@ -18,8 +18,27 @@ const LONGEST_LINE: u64 = 1 << 16;
 /// A running program. Dropped, it is ended and waited for, so that none stays behind; when this process is interrupted, too.
 #[derive(Debug)]
 pub(crate) struct Child {
-    program: Arc<Mutex<process::Child>>,
+    program: Arc<Program>,
     unfinished: Unfinished,
+}
+
+/// Program that an interrupt ends. Nobody holds it for long.
+#[derive(Debug)]
+struct Program(Mutex<process::Child>);
+
+impl Program {
+    fn locked(&self) -> MutexGuard<'_, process::Child> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Elsewhere for Program {
+    fn end(&self) {
+        let mut program = self.locked();
+        // A program that has ended and was waited for is not ended twice: `kill` says so, and nothing is lost.
+        let _ = program.kill();
+        let _ = program.wait();
+    }
 }
 
 impl Child {
@@ -27,13 +46,13 @@ impl Child {
     pub(crate) fn start(mut command: Command, program: &str, unfinished: &Unfinished) -> Result<Self, VideoError> {
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut command, 0);
-        let started = unfinished.start(&mut command);
+        let started = unfinished.begin(|| command.spawn().map(|child| Program(Mutex::new(child))));
         let program = started.map_err(|source| VideoError::Run { program: program.to_owned(), source })?;
         Ok(Self { program, unfinished: unfinished.clone() })
     }
 
     fn program(&self) -> MutexGuard<'_, process::Child> {
-        self.program.lock().unwrap_or_else(PoisonError::into_inner)
+        self.program.locked()
     }
 
     pub(crate) fn stdin(&mut self) -> Option<process::ChildStdin> {
@@ -70,7 +89,7 @@ impl Child {
         }
     }
 
-    /// Looks whether the program has ended. Nobody holds it for longer: an interrupt ends it.
+    /// Looks whether the program has ended.
     fn ended(&self) -> io::Result<Option<ExitStatus>> {
         let status = self.program().try_wait()?;
         if status.is_some() {
@@ -82,11 +101,7 @@ impl Child {
 
 impl Drop for Child {
     fn drop(&mut self) {
-        let mut program = self.program();
-        // A program that has ended and was waited for is not ended twice: `kill` says so, and nothing is lost.
-        let _ = program.kill();
-        let _ = program.wait();
-        drop(program);
+        self.program.end();
         self.unfinished.go_on();
     }
 }

@@ -66,6 +66,9 @@ impl Ffmpeg {
         // Matroska tells a rate, whatever the times of its frames.
         if info.container.starts_with("matroska") && !info.is_variable {
             info.is_variable = !self.begins_evenly(info)?;
+            // A duration tells no number of frames where their rate varies.
+            let is_told = |told: &Announced| told.by == AnnouncedBy::Count || !info.is_variable;
+            info.announced = info.announced.filter(is_told);
         }
         if is_boxes(&info.container) {
             match SpatialTags::read(&info.path) {

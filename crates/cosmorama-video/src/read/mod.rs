@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use cosmorama::raster::{EncodedImage, FramePool};
 
-pub use pair::{PairedReader, SecondHalf};
+pub use pair::{HalfPlace, PairedReader, SecondHalf};
 pub use reader::VideoReader;
 
 /// Choices for reading a video.

@@ -2,19 +2,37 @@
 
 use std::path::Path;
 
-use cosmorama::layout::Arrangement;
 use cosmorama::raster::{EncodedImage, Samples};
 
 use super::{Fault, FrameCondition, ReadOptions, VideoFrame, VideoReader};
 use crate::{Ffmpeg, StreamKind, VideoError, VideoInfo};
+
+/// Place of the second half of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum HalfPlace {
+    /// To the right of the first.
+    Beside,
+    /// Below the first.
+    Below,
+}
+
+impl HalfPlace {
+    /// Returns the columns and rows of a picture whose halves have these.
+    pub const fn whole(self, (width, height): (usize, usize)) -> (usize, usize) {
+        match self {
+            Self::Beside => (2 * width, height),
+            Self::Below => (width, 2 * height),
+        }
+    }
+}
 
 /// Second half of a video's pictures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SecondHalf {
     /// Stream that holds it.
     pub info: VideoInfo,
-    /// Arrangement of both halves in a picture, the first stream's first.
-    pub arrangement: Arrangement,
+    /// Its place in a picture.
+    pub place: HalfPlace,
 }
 
 /// Frames of two streams in step, each pair in one picture. Dropped early, it ends both programs.
@@ -22,7 +40,7 @@ pub struct SecondHalf {
 pub struct PairedReader {
     first: VideoReader,
     second: VideoReader,
-    arrangement: Arrangement,
+    place: HalfPlace,
 }
 
 /// Columns that a row of faces in GoPro MAX's frames has more than three squares (4096x1344, 2272x736).
@@ -42,19 +60,19 @@ impl Ffmpeg {
     pub fn second_half(&self, info: &VideoInfo) -> Result<Option<SecondHalf>, VideoError> {
         let mut videos = info.others.iter().filter(|other| other.kind == StreamKind::Video);
         let (Some(other), None) = (videos.next(), videos.next()) else { return Ok(None) };
-        let Some(arrangement) = arrangement(&info.path, info.size()) else { return Ok(None) };
+        let Some(place) = place(&info.path, info.size()) else { return Ok(None) };
         let second = self.probe_stream(&info.path, other.index)?;
-        Ok(are_alike(info, &second).then_some(SecondHalf { info: second, arrangement }))
+        Ok(are_alike(info, &second).then_some(SecondHalf { info: second, place }))
     }
 }
 
-/// Returns the arrangement of two halves of this size; `None` if such pictures are whole.
-fn arrangement(path: &Path, (width, height): (usize, usize)) -> Option<Arrangement> {
+/// Returns the place of the second of two halves of this size; `None` if such pictures are whole.
+fn place(path: &Path, (width, height): (usize, usize)) -> Option<HalfPlace> {
     let is_insta360 = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(INSTA360));
     if width == 3 * height + SHARED_COLUMNS {
-        Some(Arrangement::TopBottom)
+        Some(HalfPlace::Below)
     } else {
-        (is_insta360 && width == height).then_some(Arrangement::SideBySide)
+        (is_insta360 && width == height).then_some(HalfPlace::Beside)
     }
 }
 
@@ -77,7 +95,7 @@ impl PairedReader {
         // Each frame is held beside the picture of both.
         let options = ReadOptions { memory: options.memory / 4, ..options };
         let second = VideoReader::open(ffmpeg, &half.info, options.clone())?;
-        Ok(Self { first: VideoReader::open(ffmpeg, info, options)?, second, arrangement: half.arrangement })
+        Ok(Self { first: VideoReader::open(ffmpeg, info, options)?, second, place: half.place })
     }
 
     /// Returns the next frame that both streams have; `None` after the last. One that is skipped in either is left out.
@@ -90,7 +108,7 @@ impl PairedReader {
             match one.index.cmp(&other.index) {
                 std::cmp::Ordering::Less => first = self.first.next_frame()?,
                 std::cmp::Ordering::Greater => second = self.second.next_frame()?,
-                std::cmp::Ordering::Equal => return joined(one, other, self.arrangement).map(Some),
+                std::cmp::Ordering::Equal => return joined(one, other, self.place).map(Some),
             }
         }
         Ok(None)
@@ -103,16 +121,16 @@ impl PairedReader {
 }
 
 /// Puts two frames into one picture.
-fn joined(first: &VideoFrame, second: &VideoFrame, arrangement: Arrangement) -> Result<VideoFrame, VideoError> {
+fn joined(first: &VideoFrame, second: &VideoFrame, place: HalfPlace) -> Result<VideoFrame, VideoError> {
     let (one, other) = (&first.image, &second.image);
     let row = one.width() * one.channels().count();
     let samples = match (one.samples(), other.samples()) {
-        (Samples::U8(one), Samples::U8(other)) => Samples::U8(both(one, other, (row, arrangement))),
-        (Samples::U16(one), Samples::U16(other)) => Samples::U16(both(one, other, (row, arrangement))),
+        (Samples::U8(one), Samples::U8(other)) => Samples::U8(both(one, other, (row, place))),
+        (Samples::U16(one), Samples::U16(other)) => Samples::U16(both(one, other, (row, place))),
         // Streams that are alike have samples of one kind.
         (samples, _) => samples.clone(),
     };
-    let (width, height) = arrangement.whole((one.width(), one.height()));
+    let (width, height) = place.whole((one.width(), one.height()));
     let image = EncodedImage::new(width, height, one.channels(), one.depth(), samples);
     let image = image
         .map_err(|error| VideoError::Run { program: "ffmpeg".to_owned(), source: std::io::Error::other(error) })?;
@@ -122,10 +140,10 @@ fn joined(first: &VideoFrame, second: &VideoFrame, arrangement: Arrangement) -> 
 }
 
 /// Returns the samples of two pictures with rows of so many samples, in one.
-fn both<S: Copy>(first: &[S], second: &[S], (row, arrangement): (usize, Arrangement)) -> Vec<S> {
-    match arrangement {
-        Arrangement::TopBottom => [first, second].concat(),
-        Arrangement::SideBySide => {
+fn both<S: Copy>(first: &[S], second: &[S], (row, place): (usize, HalfPlace)) -> Vec<S> {
+    match place {
+        HalfPlace::Below => [first, second].concat(),
+        HalfPlace::Beside => {
             let rows = first.chunks_exact(row).zip(second.chunks_exact(row));
             let mut samples = Vec::with_capacity(first.len() + second.len());
             rows.for_each(|(one, other)| {
@@ -143,17 +161,17 @@ mod tests {
 
     #[test]
     fn shapes_of_cameras_are_halves_and_others_are_not() {
-        let of = |name: &str, size| arrangement(Path::new(name), size);
-        assert_eq!(of("GS010001.360", (4096, 1344)), Some(Arrangement::TopBottom));
-        assert_eq!(of("renamed.mov", (2272, 736)), Some(Arrangement::TopBottom));
-        assert_eq!(of("VID_00.INSV", (2880, 2880)), Some(Arrangement::SideBySide));
+        let of = |name: &str, size| place(Path::new(name), size);
+        assert_eq!(of("GS010001.360", (4096, 1344)), Some(HalfPlace::Below));
+        assert_eq!(of("renamed.mov", (2272, 736)), Some(HalfPlace::Below));
+        assert_eq!(of("VID_00.INSV", (2880, 2880)), Some(HalfPlace::Beside));
         assert_eq!((of("a.mp4", (2880, 2880)), of("a.360", (3840, 1920))), (None, None));
     }
 
     #[test]
     fn rows_lie_beside_or_below_each_other() {
         let (one, other) = ([1, 2, 3, 4], [5, 6, 7, 8]);
-        assert_eq!(both(&one, &other, (2, Arrangement::SideBySide)), [1, 2, 5, 6, 3, 4, 7, 8]);
-        assert_eq!(both(&one, &other, (2, Arrangement::TopBottom)), [1, 2, 3, 4, 5, 6, 7, 8]);
+        assert_eq!(both(&one, &other, (2, HalfPlace::Beside)), [1, 2, 5, 6, 3, 4, 7, 8]);
+        assert_eq!(both(&one, &other, (2, HalfPlace::Below)), [1, 2, 3, 4, 5, 6, 7, 8]);
     }
 }

@@ -322,8 +322,10 @@ impl VideoReader {
                 frames.min(self.ffmpeg.packet_times(&self.info)?.len() as u64)
             }
             (None, Some(Announced { frames, by: AnnouncedBy::Count })) => frames,
-            // A duration may be rounded up.
-            (None, Some(Announced { frames, by: AnnouncedBy::Duration })) if frames <= self.expected + 1 => {
+            // A duration may be rounded up, if nothing was said of damage.
+            (None, Some(Announced { frames, by: AnnouncedBy::Duration }))
+                if frames <= self.expected + 1 && self.complaint.is_none() =>
+            {
                 self.expected
             }
             (None, Some(Announced { frames, by: AnnouncedBy::Duration })) => frames,

@@ -144,7 +144,7 @@ fn has(path: &Path, part: &[u8]) -> bool {
     std::fs::read(path).unwrap().windows(part.len()).any(|bytes| bytes == part)
 }
 
-/// The field of ambisonic sound goes along, where there is sound; a finished video is not thrown away for it.
+/// The field of ambisonic sound goes along, where there is sound.
 #[test]
 fn sound_around_the_listener_keeps_its_field() {
     let Some(ffmpeg) = ffmpeg() else { return };
@@ -160,15 +160,39 @@ fn sound_around_the_listener_keeps_its_field() {
     let silent = WriteSettings { arguments: vec!["-an".to_owned()], ..settings(&info, None) };
     write(&ffmpeg, &path, &silent, 25).unwrap();
     assert!(!has(&path, b"SA3D") && ffmpeg.probe(&path).unwrap().others.is_empty());
-    // The source changes while its sound is read.
+}
+
+/// Waits until a program has opened a file.
+#[cfg(target_os = "linux")]
+fn wait_until_open(path: &Path) {
+    let begun = std::time::Instant::now();
+    let is_open = || {
+        let processes = std::fs::read_dir("/proc").unwrap().flatten();
+        let files =
+            processes.filter_map(|process| std::fs::read_dir(process.path().join("fd")).ok()).flatten().flatten();
+        files.filter_map(|file| std::fs::read_link(file.path()).ok()).any(|link| link == path)
+    };
+    while !is_open() {
+        assert!(begun.elapsed() < std::time::Duration::from_secs(60), "it is not opened");
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+}
+
+/// The source changes while its sound is read: for a tag of it, a finished video is not thrown away.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_finished_video_is_kept_without_the_field_of_its_sound() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let (info, _) = ambisonic(&ffmpeg, folder.path());
     let path = folder.path().join("b.mp4");
     let unfinished = Unfinished::default();
     let mut writer = cosmorama_video::VideoWriter::create(&ffmpeg, &path, settings(&info, None), &unfinished).unwrap();
-    let picture =
-        crate::common::picture((64, 32), cosmorama::raster::Channels::Rgb, cosmorama::raster::Depth::Eight, 1);
-    for _ in 0..25 {
-        writer.write(&picture, None).unwrap();
+    let (channels, depth) = (cosmorama::raster::Channels::Rgb, cosmorama::raster::Depth::Eight);
+    for number in 0..25 {
+        writer.write(&crate::common::picture((64, 32), channels, depth, number), None).unwrap();
     }
+    wait_until_open(&info.path);
     std::fs::remove_file(&info.path).unwrap();
     std::fs::write(&info.path, "no video any more").unwrap();
     let written = writer.finish().unwrap();

@@ -269,7 +269,7 @@ fn alpha_goes_into_videos_that_hold_it() {
         "testsrc2=size=64x32:rate=25,format=gbrap,geq=r='p(X,Y)':g='p(X,Y)':b='p(X,Y)':a='X*4',trim=end_frame=3";
     ffmpeg(&bench, &["-f", "lavfi", "-i", source, "-c:v", "ffv1", "-pix_fmt", "bgra", "film.mkv"]);
     convert(&bench, ["film.mkv", "frames_#.png"], &[]);
-    for (name, format, worst) in [("a.mkv", "bgra", 0), ("a.mov", "yuva444p1", 6), ("a.webm", "yuva420p", 40)] {
+    for (name, format, worst) in [("a.mkv", "bgra", 1), ("a.mov", "yuva444p1", 6), ("a.webm", "yuva420p", 40)] {
         convert(&bench, ["film.mkv", name], &[]);
         let told = said(&bench, name, "v", "stream=pix_fmt:stream_tags=alpha_mode");
         assert!(told.contains(format) || (name == "a.webm" && told.contains("alpha_mode=1")), "{name}: {told}");
@@ -319,7 +319,10 @@ fn frames_that_an_edit_list_hides_are_not_asked_for() {
     }
     let bench = Bench::new();
     let source = "testsrc2=size=64x32:rate=25,trim=end_frame=60";
-    ffmpeg(&bench, &["-f", "lavfi", "-i", source, "-c:v", "libx264", "-g", "20", "-pix_fmt", "yuv420p", "whole.mp4"]);
+    ffmpeg(
+        &bench,
+        &["-f", "lavfi", "-i", source, "-c:v", "libx264", "-bf", "0", "-g", "20", "-pix_fmt", "yuv420p", "whole.mp4"],
+    );
     ffmpeg(&bench, &["-ss", "1.2", "-i", "whole.mp4", "-t", "0.6", "-c", "copy", "short.mp4"]);
     let shown = taken_apart(&bench, "short.mp4", "shown");
     convert(&bench, ["short.mp4", "made/####.png"], &[]);

@@ -6,7 +6,8 @@ use cosmorama::raster::{Channels, Depth, Transfer};
 use cosmorama_io::{Format, Header, Metadata};
 use cosmorama_spec::{Shape, Spec};
 use cosmorama_video::{
-    Bounds, OtherStream, SpatialTags, SphericalPose, SphericalProjection, StereoMode, StreamKind, Turn, VideoInfo,
+    Bounds, HalfPlace, OtherStream, SpatialTags, SphericalPose, SphericalProjection, StereoMode, StreamKind, Turn,
+    VideoInfo,
 };
 
 /// Returns the header that all frames of a video share.
@@ -46,7 +47,7 @@ pub(super) fn metadata(info: &VideoInfo) -> Metadata {
 }
 
 /// Returns what a video says of itself beside its pictures, each under a name, in the order of a report.
-pub(super) fn facts(info: &VideoInfo, halves: Option<Arrangement>) -> Vec<(&'static str, String)> {
+pub(super) fn facts(info: &VideoInfo, half: Option<HalfPlace>) -> Vec<(&'static str, String)> {
     let varies = if info.is_variable { " on average; it varies" } else { "" };
     let turned = info.turn != Turn::default();
     let of_kind = |kind: StreamKind| -> Option<String> {
@@ -66,8 +67,8 @@ pub(super) fn facts(info: &VideoInfo, halves: Option<Arrangement>) -> Vec<(&'sta
         ),
         (
             "streams",
-            halves.map(|arrangement| {
-                let way = if arrangement == Arrangement::TopBottom { "one above the other" } else { "side by side" };
+            half.map(|place| {
+                let way = if place == HalfPlace::Below { "one above the other" } else { "side by side" };
                 format!("two, the halves of each picture, {way} (width and height are those of both)")
             }),
         ),
@@ -140,10 +141,10 @@ pub(super) fn spec(info: &VideoInfo) -> Option<Spec> {
 }
 
 /// Returns the projection of a camera whose pictures come in two streams: the rows of GoPro MAX, the circles of Insta360.
-pub(super) fn paired(arrangement: Arrangement) -> Option<Spec> {
-    let name = match arrangement {
-        Arrangement::TopBottom => "gopro-max",
-        Arrangement::SideBySide => "insta360",
+pub(super) fn paired(place: HalfPlace) -> Option<Spec> {
+    let name = match place {
+        HalfPlace::Below => "gopro-max",
+        HalfPlace::Beside => "insta360",
     };
     name.parse().ok()
 }

@@ -143,9 +143,7 @@ impl Videos {
     /// When it cannot be read.
     pub fn spec(&self, video: &Path) -> Result<Option<(Spec, &'static str)>, IoError> {
         Ok(match &self.source(video)?.content {
-            Content::Film { half: Some(half), .. } => {
-                described::paired(half.arrangement).map(|spec| (spec, "two streams"))
-            }
+            Content::Film { half: Some(half), .. } => described::paired(half.place).map(|spec| (spec, "two streams")),
             Content::Film { info, .. } => described::spec(info).map(|spec| (spec, "spherical tags")),
             Content::Raw { .. } => None,
         })
@@ -157,7 +155,7 @@ impl Videos {
     /// When it cannot be read.
     pub fn facts(&self, video: &Path) -> Result<Vec<(&'static str, String)>, IoError> {
         if let Content::Film { info, half, .. } = &self.source(video)?.content {
-            return Ok(described::facts(info, half.as_ref().map(|half| half.arrangement)));
+            return Ok(described::facts(info, half.as_ref().map(|half| half.place)));
         }
         let rate = self.rate(video)?;
         Ok(rate.map(|rate| ("frame_rate", rate.to_string())).into_iter().collect())
@@ -242,7 +240,7 @@ impl Source {
                 ));
                 frames = both;
             }
-            (header.width, header.height) = half.arrangement.whole((header.width, header.height));
+            (header.width, header.height) = half.place.whole((header.width, header.height));
             // It is no stream beside the video.
             info.others.retain(|other| other.index != half.info.stream);
         }
