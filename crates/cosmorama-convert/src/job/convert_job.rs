@@ -15,7 +15,7 @@ use cosmorama_spec::Missing;
 use super::Content;
 use super::backdrop::{FoundBackdrop, Front};
 use super::gaps::Shot;
-use super::memory_needs::{FrameNeeds, Held, gathered_bytes, program_bytes};
+use super::memory_needs::{FrameNeeds, Held, gathered_bytes, program_bytes, with_reserve};
 use super::options::{check_file_options, filter};
 use crate::colour::{LayerPlan, Light, check_choice, check_labels, check_light};
 use crate::detect::unless_damaged;
@@ -268,7 +268,8 @@ impl ConvertJob {
         if purpose == Purpose::Light {
             return Ok(());
         }
-        let has_place = !settings.strip && !self.target.format.is_video();
+        let has_frames = self.input.frames.iter().any(Option::is_some);
+        let has_place = has_frames && !settings.strip && !self.target.format.is_video();
         self.origin = has_place.then(|| Origin::of(self, settings));
         let mut outputs = std::mem::take(&mut self.outputs);
         let left = outputs.leave_finished(settings.existing, self);
@@ -330,8 +331,11 @@ impl ConvertJob {
         self.memory.check_frame(self.frame_needs(), &self.input, &self.target)?;
         let Some(lighting) = &self.lighting else { return Ok(()) };
         let sources = self.worlds.iter().flat_map(World::sources);
+        let lobes = if lighting.exact { Vec::new() } else { lighting.lobes() };
+        let has_narrow = PreparedLight::has_narrow(&lobes);
+        let sources = sources.filter(|_| has_narrow);
         let blocks: u64 = sources.map(|source| gathered_bytes(&source.view)).fold(0, u64::saturating_add);
-        let bands = PreparedLight::bytes_for(&lighting.lobes()) as u64 * self.worlds.len() as u64;
+        let bands = PreparedLight::bytes_for(&lobes) as u64 * self.worlds.len() as u64;
         // The map before, the one after, and all between; another where the error is measured.
         let copies = lighting.every.map_or(0, |every| every.frames.min(self.input.frames.len()) + 2);
         let pictures = self.frame_needs().pictures();
@@ -361,7 +365,8 @@ impl ConvertJob {
             let made = made.map(|(width, height)| width as u64 * height as u64).fold(0, u64::saturating_add);
             job.frame_needs().peak().saturating_add(job.layers.bytes(job.input.texels() as u64, made))
         };
-        self.layers().map(of_layer).fold(program_bytes(threads), u64::saturating_add)
+        let pictures = self.layers().map(of_layer).fold(0, u64::saturating_add);
+        with_reserve(pictures).saturating_add(program_bytes(threads))
     }
 
     /// Returns the codec of pictures that are filtered in integers; `None` unless all are opaque, of 8 bits, and fit 15-bit light.

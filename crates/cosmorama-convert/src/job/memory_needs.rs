@@ -114,8 +114,9 @@ impl FrameNeeds {
             let planned = input.views().map(|view| held.light((view.nominal.width(), view.nominal.height())));
             planned.fold(0, u64::saturating_add)
         };
+        let lists = VIEW.saturating_mul(input.views().count() as u64);
         let needs = Self {
-            shared: solid_angle_bytes(input, worlds),
+            shared: solid_angle_bytes(input, worlds).saturating_add(lists),
             prepared: 0,
             samples: Samples::of(input),
             light,
@@ -325,6 +326,12 @@ const PROGRAM: u64 = 20 << 20;
 /// Memory of a thread beside the pictures that it works on: blocks of files, and the allocator's reserve.
 const THREAD: u64 = 4 << 20;
 
+/// Part of the memory of pictures that the allocator keeps beside them: freed blocks, and pages half used.
+const RESERVE: u64 = 64;
+
+/// Memory of a view beside its texels: its names, its header and its geometry, in several lists.
+const VIEW: u64 = 5 << 10;
+
 /// Rows that a thread works on.
 const BAND_ROWS: u64 = 32;
 
@@ -343,9 +350,14 @@ pub(crate) fn program_bytes(threads: usize) -> u64 {
     PROGRAM.saturating_add(THREAD.saturating_mul(threads as u64))
 }
 
+/// Adds what the allocator keeps beside pictures to their bytes.
+pub(crate) fn with_reserve(pictures: u64) -> u64 {
+    pictures.saturating_add(pictures / RESERVE)
+}
+
 /// Adds the program to the bytes of pictures, unless both are few.
 fn with_program(pictures: u64) -> u64 {
-    let all = pictures.saturating_add(program_bytes(rayon::current_num_threads()));
+    let all = with_reserve(pictures).saturating_add(program_bytes(rayon::current_num_threads()));
     if all < SMALL { pictures } else { all }
 }
 

@@ -1,9 +1,11 @@
 //! Words about how a frame is made, which its file holds: digests of what is computed, not of how it was asked for. Angles,
 //! windows and frames that come to the same give the same words.
 
+use std::collections::HashMap;
 use std::fmt::Debug;
 use std::io::{Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use cosmorama::camera::{PixelPoint, View};
 use cosmorama::motion::Shutter;
@@ -12,7 +14,8 @@ use xxhash_rust::xxh3::xxh3_64;
 use crate::diagnostic::Result;
 use crate::job::ConvertJob;
 use crate::settings::Conversion;
-use crate::source::Files;
+use crate::source::video::FrameName;
+use crate::source::{Files, ViewFiles};
 use crate::target::time;
 
 /// Part of an origin that all frames of a run share: the program's version, with digests of the settings.
@@ -21,7 +24,13 @@ pub(crate) struct Origin {
     shared: String,
     /// Files that the output's projection names.
     named: Vec<PathBuf>,
+    /// Digests of files that serve all frames, which are read once.
+    still: OnceLock<Samples>,
 }
+
+/// Digests of files, by their paths; `None` where one cannot be read. Many views may share a file.
+#[derive(Clone, Debug, Default)]
+struct Samples(HashMap<PathBuf, Option<u64>>);
 
 /// Parts of a file that are looked at: its whole length divided evenly, so that they also meet pictures without compression.
 const PARTS: u64 = 32;
@@ -57,6 +66,7 @@ impl Origin {
         Self {
             shared: format!("{version}, geometry {geometry:08x}, filter {filter:08x}, colour {colour:08x}"),
             named: named.collect(),
+            still: OnceLock::new(),
         }
     }
 
@@ -77,14 +87,43 @@ impl Origin {
         }
         let formulas: Vec<_> = job.layers().map(|layer| layer.formula).collect();
         let place = job.place(frame);
+        let still = self.still.get_or_init(|| self.still_of(job));
         let read_by = |layer: &ConvertJob| -> Vec<Option<u64>> {
+            let mut own = Samples::default();
             let paths = layer.input.paths(layer.input.frames[place]);
-            paths.iter().chain(&layer.input.beside).map(|path| sample(&*layer.files, path)).collect()
+            let paths = paths.iter().chain(&layer.input.beside).map(|path| FrameName::file(path));
+            paths.map(|path| still.known(&path).unwrap_or_else(|| own.of(&*layer.files, path))).collect()
         };
-        let named: Vec<_> = self.named.iter().map(|path| sample(&*job.files, path)).collect();
+        let named: Vec<_> = self.named.iter().map(|path| still.known(path).flatten()).collect();
         let read = (job.layers().map(read_by).collect::<Vec<_>>(), named);
         let (pose, input) = (digest(&poses), digest(&(formulas, read)));
         Ok(Some(format!("{}{POSE}{pose:08x}, input {input:08x}", self.shared)))
+    }
+}
+
+impl Origin {
+    /// Returns the digests of files that serve all frames: lists, masks, maps, stills and videos.
+    fn still_of(&self, job: &ConvertJob) -> Samples {
+        let mut samples = Samples::default();
+        for layer in job.layers() {
+            let stills = layer.input.present().filter(|(view, ..)| !matches!(view.files, ViewFiles::Sequence(_)));
+            let stills = stills.map(|(view, ..)| view.files.file(None));
+            stills.chain(layer.input.beside.iter().cloned()).for_each(|path| _ = samples.of(&*layer.files, path));
+        }
+        self.named.iter().for_each(|path| _ = samples.of(&*job.files, path.clone()));
+        samples
+    }
+}
+
+impl Samples {
+    /// Returns the digest of a file if it is known.
+    fn known(&self, path: &Path) -> Option<Option<u64>> {
+        self.0.get(path).copied()
+    }
+
+    /// Returns the digest of a file, which is read if it is not known yet.
+    fn of(&mut self, files: &dyn Files, path: PathBuf) -> Option<u64> {
+        *self.0.entry(path).or_insert_with_key(|path| sample(files, path))
     }
 }
 
@@ -141,6 +180,10 @@ fn sample(files: &dyn Files, path: &Path) -> Option<u64> {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use cosmorama_io::{IoError, ReadSeek};
+
     use super::*;
     use crate::source::InMemory;
 
@@ -175,5 +218,34 @@ mod tests {
             }
         }
         assert_eq!(sample(&InMemory::default(), Path::new("none")), None);
+    }
+
+    /// Files that count how often they are opened.
+    #[derive(Debug, Default)]
+    struct Counted {
+        files: InMemory,
+        opened: AtomicUsize,
+    }
+
+    impl Files for Counted {
+        fn open(&self, path: &Path) -> std::result::Result<Box<dyn ReadSeek + Send>, IoError> {
+            self.opened.fetch_add(1, Ordering::Relaxed);
+            self.files.open(path)
+        }
+
+        fn holds(&self, path: &Path) -> bool {
+            self.files.holds(path)
+        }
+    }
+
+    #[test]
+    fn a_file_of_many_views_is_read_once() {
+        let mut files = Counted::default();
+        files.files.insert("it", vec![7; 100]);
+        let (mut samples, path) = (Samples::default(), PathBuf::from("it"));
+        assert_eq!(samples.known(&path), None);
+        let first = samples.of(&files, path.clone());
+        assert!(first.is_some() && (0..1000).all(|_| samples.of(&files, path.clone()) == first));
+        assert_eq!((samples.known(&path), files.opened.load(Ordering::Relaxed)), (Some(first), 1));
     }
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::{Builder, TempDir};
 
-use super::{Listed, SUFFIX, Unfinished, place, sweep};
+use super::{Listed, SUFFIX, Unfinished, place};
 use crate::IoError;
 
 /// A folder of files in progress. Dropped without [`PendingFolder::finish`], it leaves nothing behind.
@@ -27,7 +27,7 @@ impl PendingFolder {
         let beside = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         unfinished.sweep(beside);
         let (folder, listed) = unfinished.list(|| {
-            let folder = Builder::new().prefix(&sweep::prefix()).suffix(SUFFIX).tempdir_in(beside)?;
+            let folder = Builder::new().prefix(&unfinished.owner().prefix()).suffix(SUFFIX).tempdir_in(beside)?;
             Ok((folder.path().to_owned(), folder))
         })?;
         let path = folder.path().join("files");

@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, Weak};
 
 use tempfile::{Builder, TempDir, TempPath};
 
@@ -24,6 +24,7 @@ pub use folder::PendingFolder;
 pub use new_folders::NewFolders;
 pub use space::free_space;
 
+use self::sweep::Owner;
 use crate::IoError;
 
 const PREFIX: &str = ".cosmorama-";
@@ -31,7 +32,15 @@ const SUFFIX: &str = ".part";
 
 /// List of temporary files in progress, and of work elsewhere that is done for them. Clones share the list.
 #[derive(Clone, Debug, Default)]
-pub struct Unfinished(Arc<Mutex<Listing>>);
+pub struct Unfinished(Arc<Shared>);
+
+/// List and owner, which clones share.
+#[derive(Debug, Default)]
+struct Shared {
+    listing: Mutex<Listing>,
+    /// Owner of the files, who is found when the first is made.
+    owner: OnceLock<Owner>,
+}
 
 /// Things to remove when a program is interrupted.
 #[derive(Debug, Default)]
@@ -90,14 +99,19 @@ impl Unfinished {
 
     fn listing(&self) -> MutexGuard<'_, Listing> {
         // A set of paths is whole after every step, even if a thread panicked.
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+        self.0.listing.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Removes what killed programs have left in a folder, once for each folder.
     fn sweep(&self, folder: &Path) {
         if self.listing().swept.insert(folder.to_owned()) {
-            sweep::sweep(folder);
+            self.owner().sweep(folder);
         }
+    }
+
+    /// Returns the owner of the files.
+    fn owner(&self) -> &Owner {
+        self.0.owner.get_or_init(Owner::this)
     }
 
     /// Creates a file and puts it on the list, while `remove_all` cannot run.
@@ -169,7 +183,7 @@ impl Pending {
             _ => Path::new("."),
         };
         unfinished.sweep(folder);
-        let prefix = sweep::prefix();
+        let prefix = unfinished.owner().prefix();
         let mut builder = Builder::new();
         builder.prefix(&prefix).suffix(SUFFIX);
         let make = || {

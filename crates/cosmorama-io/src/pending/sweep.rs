@@ -2,7 +2,6 @@
 
 use std::fs::{self, DirEntry};
 use std::path::Path;
-use std::sync::OnceLock;
 use std::time::Duration;
 
 use super::{PREFIX, SUFFIX};
@@ -10,66 +9,92 @@ use super::{PREFIX, SUFFIX};
 /// Time without a change after which a file counts as left, whoever makes it.
 const LONG: Duration = Duration::from_secs(24 * 60 * 60);
 
-/// Returns the beginning of the names of this process's temporary files.
-pub(super) fn prefix() -> String {
-    let both = machine().zip(this_process());
-    both.map_or_else(|| PREFIX.to_owned(), |(machine, process)| format!("{PREFIX}{machine}-{process}-"))
+/// Owner of temporary files: a process, as its files' names and the system tell it.
+#[derive(Debug)]
+pub(super) struct Owner {
+    /// Name of the machine since its start, and of the name space of its processes; `None` where the system tells none.
+    /// There, a process that is not found is gone.
+    machine: Option<String>,
+    /// Number of the process, in its name space.
+    process: Option<String>,
+    /// User, of whose processes none is hidden.
+    user: Option<u32>,
 }
 
-/// Returns the number of this process, in its name space.
+impl Owner {
+    /// Returns this process.
+    pub(super) fn this() -> Self {
+        Self { machine: machine(), process: this_process(), user: user() }
+    }
+
+    /// Returns the beginning of the names of its temporary files.
+    pub(super) fn prefix(&self) -> String {
+        let both = self.machine.as_ref().zip(self.process.as_ref());
+        both.map_or_else(|| PREFIX.to_owned(), |(machine, process)| format!("{PREFIX}{machine}-{process}-"))
+    }
+
+    /// Removes from a folder the temporary files, and folders of such, whose process is gone. Files of other machines go after a day
+    /// without a change. What cannot be removed stays.
+    pub(super) fn sweep(&self, folder: &Path) {
+        let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+        for entry in entries.filter(|entry| self.is_left(entry)) {
+            let _ = match entry.file_type() {
+                Ok(kind) if kind.is_dir() => fs::remove_dir_all(entry.path()),
+                _ => fs::remove_file(entry.path()),
+            };
+        }
+    }
+
+    fn is_left(&self, entry: &DirEntry) -> bool {
+        let name = entry.file_name();
+        let middle = name.to_str().and_then(|name| name.strip_prefix(PREFIX)?.strip_suffix(SUFFIX));
+        let is_ours = || entry.metadata().is_ok_and(|found| self.is_user_of(&found));
+        middle.is_some_and(|middle| is_ours() && (self.is_beside_gone(middle) || is_old(entry)))
+    }
+
+    /// Returns whether a file belongs to this process's user.
+    #[cfg(unix)]
+    fn is_user_of(&self, found: &fs::Metadata) -> bool {
+        use std::os::unix::fs::MetadataExt;
+        self.user.is_none_or(|user| found.uid() == user)
+    }
+
+    #[cfg(not(unix))]
+    fn is_user_of(&self, _: &fs::Metadata) -> bool {
+        self.user.is_none()
+    }
+
+    /// Returns whether a name is that of a file of this machine, whose process is gone.
+    fn is_beside_gone(&self, middle: &str) -> bool {
+        let of = |machine: &String| {
+            middle.strip_prefix(machine.as_str())?.strip_prefix('-')?.split('-').next()?.parse::<u32>().ok()
+        };
+        let process = self.machine.as_ref().and_then(of);
+        process.is_some_and(|process| !Path::new("/proc").join(process.to_string()).exists())
+    }
+}
+
 fn this_process() -> Option<String> {
     fs::read_link("/proc/self").ok()?.into_os_string().into_string().ok()
 }
 
-/// Returns a name of this machine since its start, and of the name space of its processes; `None` where the system tells none.
-/// There, a process that is not found is gone.
-fn machine() -> Option<&'static str> {
-    static MACHINE: OnceLock<Option<String>> = OnceLock::new();
-    let name = || {
-        let start = fs::read_to_string("/proc/sys/kernel/random/boot_id").ok()?;
-        let space = fs::read_link("/proc/self/ns/pid").ok()?;
-        let hexadecimal = start.chars().filter(char::is_ascii_hexdigit).take(12);
-        let digits = space.to_string_lossy().chars().filter(char::is_ascii_digit).collect::<String>();
-        Some(hexadecimal.collect::<String>() + "." + &digits)
-    };
-    MACHINE.get_or_init(name).as_deref()
+fn machine() -> Option<String> {
+    let start = fs::read_to_string("/proc/sys/kernel/random/boot_id").ok()?;
+    let space = fs::read_link("/proc/self/ns/pid").ok()?;
+    let hexadecimal = start.chars().filter(char::is_ascii_hexdigit).take(12);
+    let digits = space.to_string_lossy().chars().filter(char::is_ascii_digit).collect::<String>();
+    Some(hexadecimal.collect::<String>() + "." + &digits)
 }
 
-/// Removes from a folder the temporary files, and folders of such, whose process is gone. Files of other machines go after a day
-/// without a change. What cannot be removed stays.
-pub(super) fn sweep(folder: &Path) {
-    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
-    for entry in entries.filter(is_left) {
-        let _ = match entry.file_type() {
-            Ok(kind) if kind.is_dir() => fs::remove_dir_all(entry.path()),
-            _ => fs::remove_file(entry.path()),
-        };
-    }
-}
-
-fn is_left(entry: &DirEntry) -> bool {
-    let name = entry.file_name();
-    let middle = name.to_str().and_then(|name| name.strip_prefix(PREFIX)?.strip_suffix(SUFFIX));
-    middle.is_some_and(|middle| is_ours(entry) && (is_of_gone_process(middle) || is_old(entry)))
-}
-
-/// Returns whether a file belongs to this process's user, of whose processes none is hidden.
 #[cfg(unix)]
-fn is_ours(entry: &DirEntry) -> bool {
+fn user() -> Option<u32> {
     use std::os::unix::fs::MetadataExt;
-    static USER: OnceLock<Option<u32>> = OnceLock::new();
-    let user = USER.get_or_init(|| Some(fs::metadata("/proc/self").ok()?.uid()));
-    entry.metadata().is_ok_and(|found| user.is_none_or(|user| found.uid() == user))
+    Some(fs::metadata("/proc/self").ok()?.uid())
 }
 
 #[cfg(not(unix))]
-fn is_ours(_: &DirEntry) -> bool {
-    true
-}
-
-fn is_of_gone_process(middle: &str) -> bool {
-    let of = |machine| middle.strip_prefix(machine)?.strip_prefix('-')?.split('-').next()?.parse::<u32>().ok();
-    machine().and_then(of).is_some_and(|process| !Path::new("/proc").join(process.to_string()).exists())
+fn user() -> Option<u32> {
+    None
 }
 
 /// Returns whether a file has not been changed for long. A folder does not change when the files in it do.

@@ -108,3 +108,23 @@ fn models_are_refused_or_understood() {
     }
     std::fs::remove_dir_all(&folder).unwrap();
 }
+
+/// Many nodes that all show a mesh of many points, which are no triangles: each would be a part.
+#[test]
+fn parts_without_triangles_count_too() {
+    const MANY: usize = 3000;
+    let primitives = vec!["{\"mode\":0,\"attributes\":{\"POSITION\":0}}"; MANY].join(",");
+    let (nodes, numbers) = (vec!["{\"mesh\":0}"; MANY].join(","), (0..MANY).map(|node| node.to_string()));
+    let text = format!(
+        "{{\"asset\":{{\"version\":\"2.0\"}},\"scene\":0,\"scenes\":[{{\"nodes\":[{}]}}],\"nodes\":[{nodes}],\"meshes\":[{{\"primitives\":\
+         [{primitives}]}}],\"buffers\":[{{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,\
+         AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}}],\"bufferViews\":[{{\"buffer\":0,\"byteLength\":36}}],\"accessors\":\
+         [{{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"min\":[0,0,0],\"max\":[1,1,0]}}]}}",
+        numbers.collect::<Vec<_>>().join(",")
+    );
+    let path = std::env::temp_dir().join(format!("cosmorama-parts-{}.gltf", std::process::id()));
+    std::fs::write(&path, text).unwrap();
+    let error = Model::read(&path, &SETTINGS, &mut Small).map(drop).map_err(|error| error.to_string());
+    std::fs::remove_file(&path).unwrap();
+    assert!(error.as_ref().is_err_and(|error| error.contains("9000000")), "{error:?}");
+}

@@ -43,6 +43,10 @@ impl Presence {
 
     /// Computes the presence of a view in a direction; `None` where the view does not show it.
     pub(crate) fn of(index: usize, source: &Source, direction: Direction) -> Option<Self> {
+        // Of many views that overlap, most show other parts of what they share.
+        if !source.may_hold(direction) {
+            return None;
+        }
         let pixel = source.view.wrapped(source.view.pixel(direction)?);
         source.shows(pixel).then(|| Self::at(index, source, pixel))
     }

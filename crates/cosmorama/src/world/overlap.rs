@@ -3,6 +3,7 @@ use rayon::prelude::*;
 
 use super::Source;
 use super::blend::{Presence, parts};
+use super::search::view_index::{Near, ViewIndex};
 use crate::camera::{PixelPoint, PixelRect, View};
 use crate::projection::PlanePoint;
 use crate::sphere::Direction;
@@ -19,17 +20,21 @@ const INSIDE_A_STOP: f64 = 1e-6;
 
 /// Reduces the solid angles of texels where pictures overlap, such as the outermost texels of cube faces with samples
 /// on the edges, or the common parts of photographs. Each texel then counts for its share of the direction. Also
-/// records which views overlap each view, and which of its texels are not shared.
-pub(crate) fn share(sources: &mut [Source]) {
+/// records which views overlap each view, and which of its texels are not shared. Of many views, an index tells those that lie near.
+pub(crate) fn share(sources: &mut [Source], index: Option<&ViewIndex>) {
     let rims: Vec<Vec<Direction>> = sources.iter().map(|source| rim(&source.view)).collect();
     let meets = |a: usize, b: usize| sources[a].meets(&sources[b]);
     let sees = |view: usize, rim: usize| rims[rim].iter().any(|direction| sources[view].view.sees(*direction));
+    let near = |view: usize| match index.zip(sources[view].cone) {
+        Some((index, cone)) => index.near(cone.middle(), cone.reach()),
+        None => Near::All(0..sources.len()),
+    };
     let others: Vec<Vec<usize>> = (0..sources.len())
         .into_par_iter()
         .map(|index| {
             let overlaps =
                 |&other: &usize| other != index && meets(index, other) && (sees(index, other) || sees(other, index));
-            (0..sources.len()).filter(overlaps).collect()
+            near(index).filter(overlaps).collect()
         })
         .collect();
     for (source, others) in sources.iter_mut().zip(others) {

@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use super::blend::{Blend, Border, Presence, parts};
 use super::search::bounding_cone::SeenCone;
-use super::search::view_index::ViewIndex;
+use super::search::view_index::{Near, ViewIndex};
 use super::{SolidAngles, ViewMask, overlap};
 use crate::camera::ROUNDING;
 use crate::camera::{PixelPoint, PixelRect, View};
@@ -70,7 +70,7 @@ pub struct Source {
     /// Edges at which its picture ends.
     pub(crate) border: Border,
     /// Cone that holds its whole field of view; `None` if that may be the whole world.
-    cone: Option<SeenCone>,
+    pub(super) cone: Option<SeenCone>,
     /// Mask; `None` if all texels count.
     pub mask: Option<Arc<ViewMask>>,
     /// Indices of the views that overlap it.
@@ -144,6 +144,11 @@ impl Source {
         self.cone.is_none_or(|cone| cone.reaches(direction, radius))
     }
 
+    /// Returns whether the view may show a direction: quickly, and with some that lie beside it.
+    pub(super) fn may_hold(&self, direction: Direction) -> bool {
+        self.cone.is_none_or(|cone| cone.may_hold(direction))
+    }
+
     /// Returns whether two views may show anything in common: most of many views do not, and need no search.
     pub(super) fn meets(&self, other: &Self) -> bool {
         self.cone.zip(other.cone).is_none_or(|(cone, other)| cone.meets(&other))
@@ -189,6 +194,20 @@ pub struct World {
     sources: Vec<Source>,
     /// Views by direction, where they are many.
     index: Option<Arc<ViewIndex>>,
+    pitches: Pitches,
+}
+
+/// Sizes of the largest texels of a world's views, in radians.
+#[derive(Clone, Debug)]
+struct Pitches {
+    /// Whether they are equal.
+    are_equal: bool,
+    /// The largest.
+    largest: f64,
+    /// The largest of views without a steep rim.
+    even: f64,
+    /// Views with a steep rim, where texels differ much.
+    steep: Vec<usize>,
 }
 
 impl World {
@@ -258,10 +277,11 @@ impl World {
             offset = sources.last().map_or(0, |last| last.texels().end);
         }
         hide(&mut sources);
-        overlap::share(&mut sources);
         let cones: Vec<Option<SeenCone>> = sources.iter().map(|source| source.cone).collect();
         let index = ViewIndex::of(&cones).map(Arc::new);
-        Ok(Self { sources, index })
+        overlap::share(&mut sources, index.as_deref());
+        let pitches = Pitches::of(&sources);
+        Ok(Self { sources, index, pitches })
     }
 
     /// Returns the views.
@@ -321,10 +341,30 @@ impl World {
                 && source.mask.as_ref().is_none_or(|mask| mask.shows(pixel));
             inside.then_some((index, pixel))
         };
-        match &self.index {
-            Some(index) => index.at(direction).find_map(held),
-            None => (0..self.sources.len()).find_map(held),
-        }
+        self.near(direction, || 0.0).find_map(held)
+    }
+
+    /// Visits, in their order, the views that may show something within a radius in radians of a direction. Some of them may not. The
+    /// radius is asked for only if views are many.
+    pub(crate) fn near(&self, direction: Direction, radius: impl FnOnce() -> f64) -> Near<'_> {
+        self.index.as_ref().map_or(Near::All(0..self.sources.len()), |index| index.near(direction, radius()))
+    }
+
+    /// Returns the greatest of some upper bounds of views' texels, which for views without a steep rim are their
+    /// [`Source::texel_pitch`].
+    pub(crate) fn coarsest(&self, bound: impl Fn(&Source) -> f64) -> f64 {
+        let steep = self.pitches.steep.iter().map(|view| bound(&self.sources[*view]));
+        steep.fold(self.pitches.even, f64::max)
+    }
+
+    /// Returns the size of the largest texel of any view, in radians.
+    pub(crate) fn largest_pitch(&self) -> f64 {
+        self.pitches.largest
+    }
+
+    /// Returns whether the largest texels of all views have one size.
+    pub(crate) fn has_equal_pitches(&self) -> bool {
+        self.pitches.are_equal
     }
 
     /// Returns the place of a texel, by its index in the buffer of light.
@@ -355,6 +395,21 @@ impl World {
     /// shows nothing.
     pub fn solid_angles(&self) -> impl Iterator<Item = f32> + '_ {
         self.sources.iter().flat_map(|source| source.solid_angles.iter().copied())
+    }
+}
+
+impl Pitches {
+    fn of(sources: &[Source]) -> Self {
+        let pitches = || sources.iter().map(|source| source.texel_pitch);
+        let is_steep = |source: &Source| source.view.projection.has_steep_rim();
+        let even = sources.iter().filter(|source| !is_steep(source)).map(|source| source.texel_pitch);
+        let steep = sources.iter().enumerate().filter(|(_, source)| is_steep(source)).map(|(view, _)| view);
+        Self {
+            are_equal: pitches().all(|pitch| pitch == sources[0].texel_pitch),
+            largest: pitches().fold(0.0, f64::max),
+            even: even.fold(0.0, f64::max),
+            steep: steep.collect(),
+        }
     }
 }
 

@@ -46,6 +46,12 @@ fn estimates_are_no_less_than_what_is_held_and_little_more() {
         &[&["convert", "sky_1.png", "sky.exr", "--to", "equirect", "--size", "2048", "--depth", "float"][..], &sky]
             .concat(),
     );
+    bench.save("v.png", &picture(1, 16, 8));
+    let view = |k: usize| {
+        let (yaw, pitch) = (9 * (k % 40), 4 * (k / 40));
+        format!("[[view]]\nimage = \"v.png\"\nspec = \"perspective:fov=9,yaw={yaw},pitch={pitch}\"\npriority = {k}\n")
+    };
+    std::fs::write(bench.path("views.toml"), (0..800).map(view).collect::<String>()).unwrap();
     let dome = |to: &'static str, size: &'static str| ["--to", to, "--size", size];
     let cases: Vec<(&str, Vec<&str>)> = vec![
         ("upright dome", [&["convert", "face_{face}.png", "o.png"][..], &dome("fulldome", "4096")].concat()),
@@ -54,6 +60,27 @@ fn estimates_are_no_less_than_what_is_held_and_little_more() {
         (
             "16 bits",
             [&["convert", "sky_1.png", "o.png", "--depth", "16"][..], &dome("fulldome", "2048"), &sky].concat(),
+        ),
+        (
+            "16 bits with alpha",
+            [
+                &["convert", "face_{face}.png", "o.png", "--depth", "16", "--background", "transparent"][..],
+                &dome("equirect", "3072"),
+            ]
+            .concat(),
+        ),
+        (
+            "many views",
+            [&["convert", "views.toml", "o.png", "--missing", "black"][..], &dome("equirect", "256")].concat(),
+        ),
+        (
+            "longer chain",
+            [
+                &["light", "specular", "sky.exr", "o_{level}_{face}.exr", "--levels", "5"][..],
+                &dome("cube", "256"),
+                &sky,
+            ]
+            .concat(),
         ),
         ("one sheet", [&["convert", "sky_1.png", "o.png"][..], &dome("cube:layout=3x2", "1024"), &sky].concat()),
         ("sequence", [&["convert", "sky_#.png", "o_#.png"][..], &dome("fulldome", "2048"), &sky].concat()),

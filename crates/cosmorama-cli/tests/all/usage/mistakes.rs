@@ -157,3 +157,29 @@ fn a_name_that_is_no_text_is_named() {
     assert_eq!(output.status.code(), Some(2));
     assert_says(&crate::bench::text(&output.stderr), &["sky\u{fffd}.png", "no text in UTF-8", "rename it"]);
 }
+
+/// What a file system allows, a name may hold: blanks, quotes, ends of lines, a dash in front.
+#[cfg(unix)]
+#[test]
+fn names_may_hold_what_file_systems_allow() {
+    let bench = Bench::new();
+    bench.save("sky.png", &crate::bench::picture(1, 64, 32));
+    let (to, size) = (["convert", "--from=equirect", "--to=fulldome"], "--size=16");
+    bench.succeed(&[&to[..], &[size, "sky.png", "plain.png"]].concat());
+    for stem in ["a b", "it's \"it\"", "two\nlines", "$HOME `x` ?;&", "-dash", "--to", "\u{1b}[31m"] {
+        for frame in 1..=2 {
+            std::fs::copy(bench.path("sky.png"), bench.path(&format!("{stem}_{frame}.png"))).unwrap();
+        }
+        let dome = format!("{stem} out.png");
+        bench.succeed(&[&to[..], &[size, "--", &format!("{stem}_1.png"), &dome]].concat());
+        let frames = [size, "--", &format!("{stem}_#.png"), &format!("{stem} in/dome_#.png")].map(str::to_owned);
+        let frames: Vec<&str> = frames.iter().map(String::as_str).collect();
+        let output = bench.run(&[&to[..], &["-vv"], &frames].concat());
+        let told = crate::bench::text(&output.stderr);
+        assert!(output.status.success() && !told.contains('\u{1b}') && !told.contains("two\nlines"), "{stem}: {told}");
+        bench.succeed(&[&to[..], &["--resume"], &frames].concat());
+        for made in [dome, format!("{stem} in/dome_1.png"), format!("{stem} in/dome_2.png")] {
+            assert_eq!(bench.load(&made), bench.load("plain.png"), "{made:?}");
+        }
+    }
+}

@@ -187,3 +187,35 @@ fn all_plates_and_figures_are_made_and_none_is_replaced_unasked() {
     assert_says(&bench.fail(1, &["plates", "made", "--size", "48"]), &["outputs exist", "made/plate1.png", "-y"]);
     assert_says(&bench.fail(2, &["plates", "others", "--size", "9"]), &["--size", "from 32 to 8192"]);
 }
+
+/// Whatever a verb makes: an interrupt ends it soon, and nothing half made is left.
+#[cfg(target_os = "linux")]
+#[test]
+fn an_interrupt_ends_every_verb() {
+    use std::time::{Duration, Instant};
+    let bench = Bench::new();
+    bench.save("sky.png", &picture(1, 2048, 1024));
+    let all = [
+        "shade sky.png out.exr --from equirect --material roughness=0.3,metallic=1 --size 8192x8192",
+        "light diffuse sky.png out.exr --from equirect --to equirect --size 8192 --exact",
+        "plates plates --size 8192",
+        "filters sky.png --from equirect --to fulldome --size 2048 --output filters",
+        "explain sky.png --from equirect --to fulldome --size 8192 --template template",
+    ];
+    for (args, (signal, code)) in all.iter().zip([("INT", 130), ("TERM", 143)].iter().cycle()) {
+        let before = bench.files();
+        // A shell has interrupts ignored for all that it starts in the background, the tests among them.
+        let mut command = std::process::Command::new("env");
+        command.args(["--default-signal", env!("CARGO_BIN_EXE_cosmorama")]).args(args.split(' '));
+        let mut child = command.current_dir(bench.path("")).stderr(std::process::Stdio::null()).spawn().unwrap();
+        std::thread::sleep(Duration::from_millis(700));
+        assert!(child.try_wait().unwrap().is_none(), "{args} has ended by itself");
+        let kill = std::process::Command::new("kill").args([format!("-{signal}"), child.id().to_string()]).status();
+        assert!(kill.unwrap().success());
+        let asked = Instant::now();
+        assert_eq!(child.wait().unwrap().code(), Some(*code), "{args}");
+        assert!(asked.elapsed() < Duration::from_secs(2), "{args} took {:?} to end", asked.elapsed());
+        let made: Vec<_> = bench.files().into_iter().filter(|path| !before.contains(path)).collect();
+        assert!(made.iter().all(|path| !path.to_string_lossy().contains("/.cosmorama-")), "{args}: {made:?}");
+    }
+}

@@ -295,10 +295,10 @@ fn each_read<'a, T: 'a>(
     views: impl Iterator<Item = &'a mut [T]>,
     visit: impl Fn(&ViewImage, &RimTexels, &mut [T]),
 ) {
-    for (view, (texels, rim)) in views.zip(rims).enumerate() {
-        if let Some(image) = images.iter().find(|image| image.view == view) {
-            visit(image, rim, texels);
-        }
+    let mut read: Vec<Option<&ViewImage>> = vec![None; rims.len()];
+    images.iter().for_each(|image| read[image.view] = Some(image));
+    for ((texels, rim), image) in views.zip(rims).zip(read) {
+        image.into_iter().for_each(|image| visit(image, rim, texels));
     }
 }
 

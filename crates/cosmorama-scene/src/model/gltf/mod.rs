@@ -168,7 +168,7 @@ fn vertices(node: &Node) -> usize {
     node.mesh().map_or(0, |mesh| mesh.primitives().map(|part| positions(&part)).fold(0, usize::saturating_add))
 }
 
-/// Returns the number of triangles of a node.
+/// Returns the number of triangles of a node; at least one for each of its primitives, which are parts even without any.
 fn triangles(node: &Node) -> usize {
     let count = |primitive: gltf::Primitive| {
         let corners = primitive.indices().map_or_else(|| positions(&primitive), |accessor| accessor.count());
@@ -178,7 +178,8 @@ fn triangles(node: &Node) -> usize {
             Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip => 0,
         }
     };
-    node.mesh().map_or(0, |mesh| mesh.primitives().map(count).fold(0, usize::saturating_add))
+    let of_part = |primitive: gltf::Primitive| count(primitive).max(1);
+    node.mesh().map_or(0, |mesh| mesh.primitives().map(of_part).fold(0, usize::saturating_add))
 }
 
 fn is_nearest(sampler: &gltf::texture::Sampler) -> bool {

@@ -3,7 +3,7 @@ use std::f64::consts::FRAC_PI_2;
 use crate::camera::{FieldStop, Footprint, PixelBounds, PixelPoint, PixelRect, View};
 use crate::filter::Kernel;
 use crate::sphere::{Angle, Direction};
-use crate::world::Source;
+use crate::world::{Source, World};
 
 /// Factor by which points of a block may lie farther from its centre than its corners do, because mappings bend.
 const BEND: f64 = 1.25;
@@ -104,21 +104,26 @@ impl Cap {
         texels_within(source, self.centre, self.radius)
     }
 
-    /// Returns the pitch of the largest texels within the cap in any of these sources, in radians.
-    pub(crate) fn coarsest_pitch(&self, sources: &[Source]) -> f64 {
-        sources.iter().map(|source| source.texel_pitch_within(self.centre, self.radius)).fold(0.0, f64::max)
+    /// Returns the view that shows all of the cap; the first of several.
+    pub(crate) fn owner(&self, world: &World) -> Option<usize> {
+        world.near(self.centre, || 0.0).find(|view| self.is_shown_by(&world.sources()[*view]))
     }
 
-    /// Returns the texels of a source that a kernel around the block's pixels can touch.
-    ///
-    /// `coarsest` is the pitch of the largest texels nearby, of any source, in radians: a kernel may widen to that.
-    pub(crate) fn read_texels(&self, source: &Source, coarsest: f64, kernel: &Kernel) -> Option<PixelRect> {
+    /// Visits the views of which a kernel around the block's pixels can touch texels, with these texels.
+    pub(crate) fn read_texels<'a>(
+        &self,
+        world: &'a World,
+        kernel: &Kernel,
+    ) -> impl Iterator<Item = (usize, PixelRect)> + use<'a> {
+        // A kernel may widen to the size of the largest texels nearby, of any view.
+        let texel_pitch = world.coarsest(|source| source.texel_pitch_within(self.centre, self.radius));
         // The gather's own bound of a kernel, half as much again for the error of mappings that it takes as linear, and
         // the few texels of look-ups without a kernel.
-        let texel_pitch = source.texel_pitch_within(self.centre, self.radius).max(coarsest);
         let unit = (kernel.scale * self.pixel).max(kernel.floor * texel_pitch);
         let reach = 1.5 * kernel.radius().max(1.0) * unit + 3.0 * texel_pitch;
-        texels_within(source, self.centre, self.radius + reach)
+        let (centre, radius) = (self.centre, self.radius + reach);
+        let touched = move |view: usize| Some((view, texels_within(&world.sources()[view], centre, radius)?));
+        world.near(centre, || radius).filter_map(touched)
     }
 }
 

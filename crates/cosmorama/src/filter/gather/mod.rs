@@ -33,7 +33,7 @@ use super::{Ellipse, Kernel, lookup};
 use crate::camera::{FieldStop, Footprint, PixelPoint};
 use crate::projection::Projection;
 use crate::sphere::{Direction, DirectionJacobian};
-use crate::world::{Source, World};
+use crate::world::{Near, Source, World};
 use clearance::{Clearance, Grid};
 use tap_weights::settle;
 
@@ -130,8 +130,8 @@ impl<'a> Gather<'a> {
             self.scratch.candidates.clear();
             let meeting = Meeting::at(self.world, self.table.kernel(), footprint.direction);
             let mut coarsest = 0f64;
-            for (index, source) in sources.iter().enumerate() {
-                let start = self.scratch.candidates.len();
+            for index in self.near(footprint, meeting.as_ref(), floor) {
+                let (source, start) = (&sources[index], self.scratch.candidates.len());
                 let floor = floor * meeting.map_or(1.0, |meeting| meeting.widening(source));
                 if self.gather_from(source, footprint, region, floor) {
                     // A kernel wholly inside one view ignores the others. They could enter only through a bent ellipse,
@@ -144,6 +144,15 @@ impl<'a> Gather<'a> {
             }
         }
         self.drop_unseen(footprint, region)
+    }
+
+    /// Visits, in their order, the views that a footprint's kernels may reach, whose unit is at least `floor` texels before they are
+    /// widened where views meet.
+    fn near(&self, footprint: &Footprint, meeting: Option<&Meeting>, floor: f64) -> Near<'a> {
+        let direction = footprint.direction;
+        let pitch = || self.world.coarsest(|source| source.texel_pitch_at(direction));
+        let widest = || pitch().max(meeting.map_or(0.0, Meeting::coarsest));
+        self.world.near(direction, || self.reach(footprint, widest(), floor))
     }
 
     /// Rescales candidates' distances to the coarsest kernel's unit, and returns that kernel's reach. Otherwise texels

@@ -25,9 +25,7 @@ pub(crate) struct Meeting {
 impl Meeting {
     /// Returns the views that meet at a direction; `None` in a world whose views have equal texels.
     pub(crate) fn at(world: &World, kernel: &Kernel, direction: Direction) -> Option<Self> {
-        let sources = world.sources();
-        let pitches = || sources.iter().map(|source| source.texel_pitch);
-        if pitches().all(|pitch| pitch == sources[0].texel_pitch) {
+        if world.has_equal_pitches() {
             return None;
         }
         let (floor, reach) = (kernel.floor, kernel.floor * kernel.radius());
@@ -36,8 +34,14 @@ impl Meeting {
             let beyond = is_near.then(|| source.texels_beyond(direction))??;
             Some(source.texel_pitch_at(direction) * (1.0 - beyond / reach))
         };
-        let coarsest = sources.iter().filter_map(pitch).fold(0.0, f64::max);
+        let near = world.near(direction, || reach * world.largest_pitch());
+        let coarsest = near.filter_map(|view| pitch(&world.sources()[view])).fold(0.0, f64::max);
         Some(Self { direction, floor, reach, coarsest })
+    }
+
+    /// Returns the texel pitch of the coarsest view, in radians. No view's kernel is wider than one of such texels.
+    pub(crate) fn coarsest(&self) -> f64 {
+        self.coarsest
     }
 
     /// Returns the factor by which the kernel is wider for the texels of a view.

@@ -53,6 +53,11 @@ impl<'w> PreparedLight<'w> {
         ZonalLight::bytes_for(lobes)
     }
 
+    /// Returns whether some of these lobes are so narrow that blocks of texels are gathered for them.
+    pub fn has_narrow(lobes: &[Lobe]) -> bool {
+        !ZonalLight::takes_all(lobes)
+    }
+
     fn tree(&self) -> &LightTree<'w> {
         self.tree.get_or_init(|| LightTree::of_texels(self.world, self.texels))
     }

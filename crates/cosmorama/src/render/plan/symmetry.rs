@@ -10,7 +10,7 @@ use crate::raster::RowLayout;
 use crate::render::Resampler;
 use crate::render::scan::tile::SIDE;
 use crate::sphere::Direction;
-use crate::world::{Source, TexelPlace, World};
+use crate::world::{Near, Source, TexelPlace, World};
 
 /// Rounding error in radians by which equal directions may differ.
 const SAME: f64 = 1e-11;
@@ -269,10 +269,16 @@ impl MirrorImage {
     fn of((world, layout): (&World, &[RowLayout]), target: &View, flip: Flip) -> Option<Self> {
         let mirror = mirror_of(target, flip)?;
         let seen = |source: &Source| {
-            let mut others = world.sources().iter().zip(layout);
-            others.find_map(|(other, &rows)| {
+            let [across, down] = [source.view.width(), source.view.height()].map(|size| 0.5 * size as f64);
+            // Of many views, those that show what is behind its middle in the mirror.
+            let middle = source.view.direction(PixelPoint::new(across, down));
+            let mut others = middle.map_or(Near::All(0..world.sources().len()), |middle| {
+                world.near(Direction::from_unit(mirror * middle.vector()), || 0.0)
+            });
+            others.find_map(|view| {
+                let other = &world.sources()[view];
                 let Flip { is_turned, axes: flips } = reflection(source, other, &mirror, flip.is_turned)?;
-                Some(Reflection { rows, is_turned, flips })
+                Some(Reflection { rows: layout[view], is_turned, flips })
             })
         };
         let views = world.sources().iter().map(seen).collect::<Option<_>>()?;

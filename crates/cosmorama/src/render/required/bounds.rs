@@ -73,12 +73,7 @@ impl Survey<'_> {
 
     /// Adds what pixels see, in blocks whose kernels reach one of these views.
     fn look(&self, block: Block, views: &[bool], needs: &mut Needs) {
-        let sources = self.world.sources();
-        let reaches = |cap: Cap| {
-            let coarsest = cap.coarsest_pitch(sources);
-            let asked = sources.iter().zip(views).filter(|(_, asked)| **asked);
-            asked.map(|(source, _)| cap.read_texels(source, coarsest, &self.filter.kernel)).any(|read| read.is_some())
-        };
+        let reaches = |cap: Cap| cap.read_texels(self.world, &self.filter.kernel).any(|(view, _)| views[view]);
         if block.is_hidden(self.target) || !block.cap(self.target).is_none_or(reaches) {
             return;
         }

@@ -187,7 +187,7 @@ impl Survey<'_> {
 
     pub(crate) fn judged(&self, block: Block) -> Judged {
         let cap = block.cap(self.target);
-        let owner = cap.and_then(|cap| self.world.sources().iter().position(|source| cap.is_shown_by(source)));
+        let owner = cap.and_then(|cap| cap.owner(self.world));
         let rank = if cap.is_none() || block.is_at_edge_of(self.target) { 0 } else { 1 + usize::from(owner.is_some()) };
         let is_inside = cap.is_some_and(|cap| cap.is_inside(self.target));
         Judged { block, cap, owner, is_inside, rank }
@@ -256,18 +256,15 @@ impl Survey<'_> {
 
     /// Returns whether kernels around a block's pixels touch only texels that are known to be needed.
     fn reads_within(&self, cap: &Cap, needs: &Needs, is_asked: impl Fn(usize) -> bool) -> bool {
-        let (sources, kernel) = (self.world.sources(), self.filter.reaching_kernel());
-        let coarsest = cap.coarsest_pitch(sources);
-        let mut views = sources.iter().zip(&needs.views).enumerate().filter(|(view, _)| is_asked(*view));
-        views.all(|(_, (source, need))| within(cap.read_texels(source, coarsest, &kernel), need.read))
+        let mut touched = cap.read_texels(self.world, &self.filter.reaching_kernel());
+        touched.all(|(view, texels)| !is_asked(view) || within(Some(texels), needs.views[view].read))
     }
 
     /// Adds all that kernels around a block's pixels can touch.
     pub(crate) fn add_reach(&self, cap: &Cap, needs: &mut Needs) {
-        let (sources, kernel) = (self.world.sources(), self.filter.reaching_kernel());
-        let coarsest = cap.coarsest_pitch(sources);
-        for (source, need) in sources.iter().zip(&mut needs.views) {
-            need.read = union(need.read, cap.read_texels(source, coarsest, &kernel));
+        for (view, texels) in cap.read_texels(self.world, &self.filter.reaching_kernel()) {
+            let need = &mut needs.views[view];
+            need.read = union(need.read, Some(texels));
         }
     }
 

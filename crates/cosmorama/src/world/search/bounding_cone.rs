@@ -57,10 +57,31 @@ impl SeenCone {
         Self { middle: to.orientation.to_world(from.orientation.to_view(self.middle)), ..self }
     }
 
+    /// Returns the middle.
+    pub(crate) fn middle(&self) -> Direction {
+        self.middle
+    }
+
+    /// Returns the angle between the middle and the rim.
+    pub(crate) fn half(&self) -> Angle {
+        self.half
+    }
+
     /// Returns whether two cones have a direction in common, or nearly so: they hold directions up to rounding.
     pub(crate) fn meets(&self, other: &Self) -> bool {
+        self.reaches(other.middle, other.reach())
+    }
+
+    /// Returns the angle, in radians, between the middle and the farthest direction that counts as inside when cones meet.
+    pub(crate) fn reach(&self) -> f64 {
         const ROUNDING: f64 = 1e-6;
-        self.reaches(other.middle, other.half.radians() + ROUNDING)
+        self.half.radians() + ROUNDING
+    }
+
+    /// Returns whether the cone may hold a direction: quickly, and with some that lie beside it.
+    pub(crate) fn may_hold(&self, direction: Direction) -> bool {
+        // A chord is shorter than its arc.
+        self.middle.vector().distance_squared(direction.vector()) <= self.reach() * self.reach()
     }
 
     /// Returns whether the cone comes within `radius` radians of a direction.
@@ -89,6 +110,7 @@ mod tests {
         for (i, j) in (0..height).flat_map(|j| (0..width).map(move |i| (i, j))) {
             let pixel = PixelPoint::centre(i, j);
             if let Some(direction) = view.direction(pixel).filter(|_| view.shows(pixel)) {
+                assert!(cone.may_hold(direction));
                 assert!(cone.reaches(direction, 1e-9), "{frame:?}: {direction:?} at {i}, {j} is outside {cone:?}");
             }
         }

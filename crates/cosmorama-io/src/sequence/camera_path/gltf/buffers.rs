@@ -1,5 +1,8 @@
+use std::cell::RefCell;
+use std::collections::HashMap;
 use std::io;
 use std::path::Path;
+use std::rc::Rc;
 
 use data_url::DataUrl;
 use gltf::Accessor;
@@ -15,12 +18,23 @@ pub(super) struct Buffers<'a> {
     /// Name of the file.
     pub(super) name: &'a Path,
     /// Bytes in the file itself.
-    pub(super) blob: Option<&'a [u8]>,
+    blob: Option<&'a [u8]>,
     /// Reads a file by its name.
-    pub(super) beside: &'a dyn Fn(&Path) -> io::Result<Vec<u8>>,
+    beside: &'a dyn Fn(&Path) -> io::Result<Vec<u8>>,
+    /// Buffers that have been read, by their numbers.
+    read: RefCell<HashMap<usize, Rc<[u8]>>>,
 }
 
-impl Buffers<'_> {
+impl<'a> Buffers<'a> {
+    /// Creates the buffers of a file, which are read when they are asked for.
+    pub(super) fn new(
+        name: &'a Path,
+        blob: Option<&'a [u8]>,
+        beside: &'a dyn Fn(&Path) -> io::Result<Vec<u8>>,
+    ) -> Self {
+        Self { name, blob, beside, read: RefCell::default() }
+    }
+
     /// Reads all numbers of an accessor. Integers are parts of their greatest value.
     pub(super) fn numbers(&self, accessor: &Accessor) -> Result<Vec<f64>, CameraPathError> {
         let Some(view) = accessor.view().filter(|_| accessor.sparse().is_none()) else {
@@ -47,7 +61,16 @@ impl Buffers<'_> {
         Ok(numbers)
     }
 
-    fn bytes(&self, buffer: &gltf::Buffer) -> Result<Vec<u8>, CameraPathError> {
+    fn bytes(&self, buffer: &gltf::Buffer) -> Result<Rc<[u8]>, CameraPathError> {
+        if let Some(read) = self.read.borrow().get(&buffer.index()) {
+            return Ok(Rc::clone(read));
+        }
+        let bytes: Rc<[u8]> = self.bytes_of(buffer)?.into();
+        self.read.borrow_mut().insert(buffer.index(), Rc::clone(&bytes));
+        Ok(bytes)
+    }
+
+    fn bytes_of(&self, buffer: &gltf::Buffer) -> Result<Vec<u8>, CameraPathError> {
         let uri = match buffer.source() {
             Source::Bin => {
                 return self.blob.map(<[u8]>::to_vec).ok_or_else(|| wrong(self.name, "no binary part in it"));

@@ -22,6 +22,9 @@ const POSES_A_FRAME: f64 = 4.0;
 /// Greatest number of frames; more is a mistake in the file's times.
 const MOST_FRAMES: f64 = 1_000_000.0;
 
+/// Greatest number of keys of all nodes above one another, and of turns of them in all frames.
+const MOST_TURNS: usize = 20_000_000;
+
 /// Greatest error of a frame's number by the rounding of its time.
 const ROUNDED: f64 = 1e-3;
 
@@ -65,15 +68,17 @@ pub(super) fn path(bytes: &[u8], source: &PathSource) -> Result<CameraPath, Came
         );
         return Err(wrong(name, reason));
     }
-    let buffers = Buffers { name, blob: blob.as_deref(), beside: source.beside };
-    let spins = chain.iter().map(|node| Spin::of(&scene.node(*node), scene.animations(), &buffers));
-    let spins: Vec<Spin> = spins.collect::<Result<_, _>>()?;
+    let buffers = Buffers::new(name, blob.as_deref(), source.beside);
+    let spins = spins(&scene, &chain, &buffers)?;
     let frames = frames(&spins, fps).ok_or_else(|| {
         wrong(
             name,
             format!("its animation is longer than {MOST_FRAMES} frames at {fps} frames a second; check the times"),
         )
     })?;
+    if frames.len().saturating_mul(spins.len()) > MOST_TURNS {
+        return Err(too_deep(name, &format!("{} poses of {} nodes", frames.len(), spins.len())));
+    }
     let pose = |frame: f64| {
         let orientation = spins.iter().fold(Orientation::IDENTITY, |outer, spin| spin.at(frame / fps).within(outer));
         PathPose { frame, orientation, fov: None }
@@ -87,6 +92,26 @@ pub(super) fn path(bytes: &[u8], source: &PathSource) -> Result<CameraPath, Came
     };
     let remarks = goes.then(remark).into_iter().collect();
     Ok(CameraPath { poses: frames.into_iter().map(pose).collect(), ignored: Vec::new(), remarks })
+}
+
+/// Reads the turns of nodes that hang on one another, the outermost first.
+fn spins(scene: &Scene, chain: &[usize], buffers: &Buffers) -> Result<Vec<Spin>, CameraPathError> {
+    let rotations = scene.rotations();
+    let keys = chain.iter().filter_map(|node| rotations.get(node)).map(|channel| channel.sampler().input().count());
+    // Nodes may share their keys, which are read for each.
+    let keys = keys.fold(0, usize::saturating_add);
+    if keys > MOST_TURNS {
+        return Err(too_deep(buffers.name, &format!("{keys} keys of {} nodes", chain.len())));
+    }
+    let spin = |node: &usize| Spin::of(&scene.node(*node), rotations.get(node), buffers);
+    Ok(Spin::joined(chain.iter().map(spin).collect::<Result<Vec<_>, _>>()?))
+}
+
+fn too_deep(name: &Path, found: &str) -> CameraPathError {
+    let reason = format!(
+        "{found} above one another are more than the {MOST_TURNS} that are computed; bake the camera's own turns"
+    );
+    wrong(name, reason)
 }
 
 /// Returns the frames at which poses are taken: those of the keys, and more where the turn between them is uneven. `None` if
@@ -180,6 +205,44 @@ mod tests {
         assert_eq!(angles(&path.poses[96]), [-90.0, 30.0, 0.0]);
         assert_eq!(angles(&path.poses[48]), [-45.0, 15.0, 0.0]);
         assert_eq!(angles(&read(&file(true), Some(24.0), Some("Arm")).unwrap().poses[1]), [-90.0, 0.0, 0.0]);
+    }
+
+    /// Returns a file of so many nodes, one below the other, of which the first `turned` turn by the same keys; the last is a camera.
+    fn deep(nodes: usize, turned: usize) -> Vec<u8> {
+        let node = |node: usize| format!(r#"{{"children":[{}]}},"#, node + 1);
+        let tree: String = (0..nodes - 1).map(node).collect();
+        let channel = |node: usize| format!(r#"{{"sampler":0,"target":{{"node":{node},"path":"rotation"}}}},"#);
+        let channels: String = (0..turned).map(channel).collect();
+        let whole = file(true);
+        let json = String::from_utf8_lossy(&whole[20..]);
+        let (head, _) = json.split_once(r#""nodes""#).unwrap();
+        let json = format!(
+            r#"{head}"nodes":[{tree}{{"camera":0}}],"scenes":[{{"nodes":[0]}}],"animations":[{{"samplers":[{{"input":0,"output":1}}],"channels":[{}]}}]}}"#,
+            channels.trim_end_matches(',')
+        );
+        json.replacen(r#""byteLength":72}],"#, r#""byteLength":72,"uri":"turn.bin"}],"#, 1).into_bytes()
+    }
+
+    #[test]
+    fn nodes_far_down_take_time_by_their_number() {
+        let keys = file(true);
+        let beside = |_: &Path| Ok(keys[keys.len() - 72..].to_vec());
+        let read = |bytes: &[u8], fps: f64| {
+            let name = Path::new("deep.gltf");
+            let source = PathSource { name, fps: Some(fps), node: None, is_of_input: false, beside: &beside };
+            let started = std::time::Instant::now();
+            let read = CameraPath::read(bytes, &source).map_err(|error| error.to_string());
+            assert!(started.elapsed().as_secs() < 10, "{:?}", started.elapsed());
+            read
+        };
+        let path = read(&deep(200_000, 1), 2.0).unwrap();
+        assert_eq!(angles(&path.poses[path.poses.len() - 1]), [-90.0, 0.0, 0.0]);
+        // Four turns by 90° come to none, but for the rounding of all of them.
+        let path = read(&deep(100_000, 20_000), 2.0).unwrap();
+        let turned = angles(&path.poses[path.poses.len() - 1]);
+        assert!(path.poses.len() == 9 && turned.iter().all(|angle| angle.abs() < 0.5), "{turned:?}");
+        let told = read(&deep(60_000, 60_000), 1000.0).map(|path| path.poses.len());
+        assert_eq!(told.map_err(|error| error.contains("above one another")), Err(true));
     }
 
     #[test]

@@ -1,4 +1,6 @@
-use gltf::animation::Property;
+use std::collections::HashMap;
+
+use gltf::animation::{Channel, Property};
 use gltf::{Animation, Document, Node};
 
 use super::wrong;
@@ -30,18 +32,32 @@ impl<'a> Scene<'a> {
 
     /// Returns a node with all that it hangs on, the outermost first.
     pub(super) fn chain(&self, node: usize) -> Vec<usize> {
-        let mut chain = vec![node];
+        let (mut chain, mut seen) = (Vec::new(), vec![false; self.nodes.len()]);
+        let mut next = Some(node);
         // A damaged file may have a circle of parents.
-        while let Some(parent) = self.parents[chain[chain.len() - 1]].filter(|parent| !chain.contains(parent)) {
-            chain.push(parent);
+        while let Some(node) = next.filter(|node| !seen[*node]) {
+            seen[node] = true;
+            chain.push(node);
+            next = self.parents[node];
         }
         chain.reverse();
         chain
     }
 
-    /// Returns all animations: some programs write one for each node.
-    pub(super) fn animations(&self) -> &[Animation<'a>] {
-        &self.animations
+    /// Returns the first channel that turns each node that is turned. Some programs write an animation for each node.
+    pub(super) fn rotations(&self) -> HashMap<usize, Channel<'a>> {
+        let mut first = HashMap::new();
+        for channel in self.channels(Property::Rotation) {
+            let node = channel.target().node().index();
+            first.entry(node).or_insert(channel);
+        }
+        first
+    }
+
+    /// Visits the channels of all animations that change a property.
+    fn channels(&self, property: Property) -> impl Iterator<Item = Channel<'a>> {
+        let channels = self.animations.iter().flat_map(Animation::channels);
+        channels.filter(move |channel| channel.target().property() == property)
     }
 
     /// Returns whether an animation turns a node, or what it hangs on.
@@ -51,9 +67,29 @@ impl<'a> Scene<'a> {
 
     /// Returns whether an animation changes a property of a node, or of what it hangs on.
     pub(super) fn is_animated(&self, node: usize, property: Property) -> bool {
-        let chain = self.chain(node);
-        let mut targets = self.animations.iter().flat_map(Animation::channels).map(|channel| channel.target());
-        targets.any(|target| target.property() == property && chain.contains(&target.node().index()))
+        let mut holds = vec![false; self.nodes.len()];
+        self.chain(node).into_iter().for_each(|node| holds[node] = true);
+        self.channels(property).any(|channel| holds[channel.target().node().index()])
+    }
+
+    /// Returns of each node whether an animation turns it, or what it hangs on.
+    fn turned(&self) -> Vec<bool> {
+        let (mut turned, mut known) = (vec![false; self.nodes.len()], vec![false; self.nodes.len()]);
+        self.channels(Property::Rotation).for_each(|channel| turned[channel.target().node().index()] = true);
+        for node in 0..self.nodes.len() {
+            let (mut unknown, mut next) = (Vec::new(), Some(node));
+            while let Some(node) = next.filter(|node| !known[*node]) {
+                known[node] = true;
+                unknown.push(node);
+                next = self.parents[node];
+            }
+            let mut is_turned = next.is_some_and(|node| turned[node]);
+            for node in unknown.into_iter().rev() {
+                is_turned |= turned[node];
+                turned[node] = is_turned;
+            }
+        }
+        turned
     }
 
     /// Returns the node's own name, its camera's, or its number.
@@ -75,7 +111,8 @@ impl<'a> Scene<'a> {
                 wrong(source.name, format!("no camera or node {wanted}; there are {}", self.listed(&all)))
             });
         }
-        let turning: Vec<usize> = cameras.iter().copied().filter(|camera| self.is_turned(*camera)).collect();
+        let turned = self.turned();
+        let turning: Vec<usize> = cameras.iter().copied().filter(|camera| turned[*camera]).collect();
         match (&cameras[..], &turning[..]) {
             (&[only], _) | (_, &[only]) => Ok(only),
             ([], _) => {

@@ -1,7 +1,7 @@
 use cosmorama::motion::{Key, Pose, Smoothness, Track};
 use cosmorama::sphere::Orientation;
-use gltf::animation::{Interpolation, Property};
-use gltf::{Animation, Node};
+use gltf::Node;
+use gltf::animation::{Channel, Interpolation};
 
 use super::buffers::Buffers;
 use super::wrong;
@@ -20,12 +20,9 @@ pub(super) enum Spin {
 }
 
 impl Spin {
-    /// Reads the turns of a node in the first animation that turns it.
-    pub(super) fn of(node: &Node, animations: &[Animation], buffers: &Buffers) -> Result<Self, CameraPathError> {
-        let is_its = |channel: &gltf::animation::Channel| {
-            channel.target().property() == Property::Rotation && channel.target().node().index() == node.index()
-        };
-        let Some(channel) = animations.iter().flat_map(Animation::channels).find(is_its) else {
+    /// Reads the turns of a node in the channel that turns it, if there is one.
+    pub(super) fn of(node: &Node, channel: Option<&Channel>, buffers: &Buffers) -> Result<Self, CameraPathError> {
+        let Some(channel) = channel else {
             let (_, rotation, _) = node.transform().decomposed();
             return Ok(Self::Still(orientation(rotation.map(f64::from)).unwrap_or(Orientation::IDENTITY)));
         };
@@ -55,6 +52,19 @@ impl Spin {
         };
         let keys = times.into_iter().zip(values.chunks(4)).map(key).collect::<Result<Vec<Key>, CameraPathError>>()?;
         Ok(if sampler.interpolation() == Interpolation::Step { Self::Steps(keys) } else { Self::Even(keys) })
+    }
+
+    /// Joins nodes that stand still with those above them, the outermost first.
+    pub(super) fn joined(spins: impl IntoIterator<Item = Self>) -> Vec<Self> {
+        let mut joined: Vec<Self> = Vec::new();
+        for spin in spins {
+            if let (Some(Self::Still(outer)), Self::Still(inner)) = (joined.last_mut(), &spin) {
+                *outer = inner.within(*outer);
+            } else {
+                joined.push(spin);
+            }
+        }
+        joined
     }
 
     /// Returns the times of its keys, in seconds.

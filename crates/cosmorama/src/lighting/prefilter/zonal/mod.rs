@@ -70,12 +70,18 @@ impl ZonalLight {
 
     /// Returns about how many bytes grids and waves take for some lobes.
     pub(super) fn bytes_for(lobes: &[Lobe]) -> usize {
-        let bands: Vec<usize> = lobes.par_iter().filter_map(Bands::of).map(|bands| bands.highest() + 1).collect();
+        let bands: Vec<usize> = lobes.par_iter().filter_map(Bands::of).map(|bands| bands.highest()).collect();
         let Some(most) = bands.iter().max() else { return 0 };
-        let rows = GridSize::of(*most).rows;
-        // Pieces that are merged, the whole, and the light under each lobe; waves of two transforms.
-        let grids = (GATHERED + bands.len()) * 2 * rows * rows * size_of::<Channels>();
-        grids + 2 * rows * most * size_of::<Parts>()
+        let grid = |highest: &usize| 2 * GridSize::of(*highest).rows.pow(2) * size_of::<Channels>();
+        // Pieces that are merged, and the whole; later the light under each lobe. Waves of two transforms.
+        let gathered = GATHERED * grid(most);
+        let under = bands.iter().map(grid).sum();
+        gathered.max(under) + 2 * GridSize::of(*most).rows * (most + 1) * size_of::<Parts>()
+    }
+
+    /// Returns whether bands hold the light under all of some lobes.
+    pub(super) fn takes_all(lobes: &[Lobe]) -> bool {
+        lobes.par_iter().all(|lobe| Bands::of(lobe).is_some())
     }
 
     /// Returns the solid angle in which something is shown.
