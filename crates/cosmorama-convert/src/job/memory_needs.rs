@@ -327,7 +327,7 @@ const PROGRAM: u64 = 20 << 20;
 const THREAD: u64 = 4 << 20;
 
 /// Part of the memory of pictures that the allocator keeps beside them: freed blocks, and pages half used.
-const RESERVE: u64 = 64;
+const RESERVE: u64 = 16;
 
 /// Memory of a view beside its texels: its names, its header and its geometry, in several lists.
 const VIEW: u64 = 5 << 10;

@@ -62,8 +62,9 @@ pub trait Elsewhere: std::fmt::Debug + Send + Sync {
 }
 
 impl Unfinished {
-    /// Deletes all temporary files on the list and empty new folders, and ends work elsewhere, for interrupt handlers. The program
-    /// must end next: from now on, whoever begins, finishes or abandons a file or a work of this list blocks until it does. So nothing appears after the removal, and no writer's failure is reported in place of the interrupt.
+    /// Deletes all temporary files on the list and empty new folders, and ends work elsewhere, for interrupt handlers. The
+    /// program must end next: from now on, whoever begins, finishes or abandons a file or a work of this list blocks until it
+    /// does. So nothing appears after the removal, and no writer's failure is reported in place of the interrupt.
     pub fn remove_all(&self) {
         let listing = self.listing();
         listing.elsewhere.iter().filter_map(Weak::upgrade).for_each(|work| work.end());

@@ -198,7 +198,7 @@ fn an_interrupt_ends_every_verb() {
     let all = [
         "shade sky.png out.exr --from equirect --material roughness=0.3,metallic=1 --size 8192x8192",
         "light diffuse sky.png out.exr --from equirect --to equirect --size 8192 --exact",
-        "plates plates --size 8192",
+        "plates plates",
         "filters sky.png --from equirect --to fulldome --size 2048 --output filters",
         "explain sky.png --from equirect --to fulldome --size 8192 --template template",
     ];

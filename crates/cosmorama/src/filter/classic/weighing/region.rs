@@ -310,7 +310,7 @@ mod tests {
             let [x, y, z, size] = [0.73, 0.31, 0.57, 0.11].map(|step: f64| (step * f64::from(k)).fract() * 2.0 - 1.0);
             let Some(direction) = Direction::new(DVec3::new(x, y, z)) else { continue };
             let (right, up) = direction.vector().any_orthonormal_pair();
-            let footprint = Footprint::new(direction, right * 0.2 * size, up * 0.05 + right * 0.1 * size);
+            let footprint = Footprint::new(direction, right * 0.02 * size, up * 0.005 + right * 0.01 * size);
             for source in world.sources() {
                 let Some(seen) = Seen::new(source, &footprint).filter(|seen| !seen.is_inside()) else { continue };
                 let farthest = seen.farthest(2.0);
