@@ -296,7 +296,7 @@ mod tests {
         World::new([("all".to_owned(), view)]).expect("one view")
     }
 
-    /// Few directions tell when a picture is out of reach: never where many find something.
+    /// Checks that few directions tell when a picture is out of reach, and never where many find something.
     #[test]
     fn what_lies_beyond_is_not_shown() {
         let face = |face: CubeFace| {
