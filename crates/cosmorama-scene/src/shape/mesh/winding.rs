@@ -9,7 +9,7 @@ use super::tree::Tree;
 use crate::ray::{Ray, RayChange};
 
 /// Direction in which a piece is left to find what is around it: along no edge of a model that people make.
-const AWAY: DVec3 = DVec3::new(0.539_816_339_744_831, 0.302_775_637_731_994_6, 0.785_398_163_397_448_3);
+const AWAY: DVec3 = DVec3::new(0.539_816_339_744_831, 0.302_775_637_731_994_6, 0.784_371_216_397_448_3);
 
 /// Triangles that hang together by edges of two. Each knows another, and whether that is wound the other way.
 struct Pieces {
