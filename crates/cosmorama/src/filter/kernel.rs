@@ -134,7 +134,8 @@ pub struct Kernel {
     /// Whether the weights are corrected so that their centroid is exactly the pixel's centre.
     pub centred: bool,
     /// Number of entries of the table over r² that holds the weights, from 1 to [`Kernel::MOST_ENTRIES`]; between two
-    /// entries they are interpolated. Cubics and wide Gaussians are computed instead where that is faster.
+    /// entries they are interpolated. Where that is faster, cubics are computed instead, and wide Gaussians whose table has
+    /// the usual length.
     pub entries: usize,
 }
 

@@ -21,11 +21,12 @@ const SERIES: [f32; 8] = [1.0 / 5040.0, 1.0 / 720.0, 1.0 / 120.0, 1.0 / 24.0, 1.
 
 impl Gaussian {
     /// Returns the Gaussian of a kernel. `None` if a cross-section is none, if the two differ, if it is so narrow that a
-    /// texel under the pixel may have no weight, or if it falls below e⁻⁸.
+    /// texel under the pixel may have no weight, if it falls below e⁻⁸, or if a table of some length is asked for.
     pub(crate) fn of(kernel: &Kernel) -> Option<Self> {
         let CrossSection::Gaussian { alpha, cutoff } = kernel.fine else { return None };
         let (reach, is_one) = (cutoff * cutoff, kernel.fine == kernel.coarse);
-        let is_held = is_one && reach >= UNDER && (0.0..=PARTS).contains(&(alpha * reach));
+        let is_held =
+            is_one && kernel.entries == Kernel::ENTRIES && reach >= UNDER && (0.0..=PARTS).contains(&(alpha * reach));
         is_held.then_some(Self { rate: (-alpha / PARTS) as f32, reach: reach as f32 })
     }
 }
@@ -76,7 +77,8 @@ mod tests {
     #[test]
     fn only_wide_gaussians_are_taken() {
         let mixed = Kernel { coarse: CrossSection::MITCHELL, ..Kernel::LIGHT };
-        for other in [Kernel::ADAPTIVE, mixed, gaussian(2.0, 1.0), gaussian(2.0, 3.0), gaussian(-1.0, 2.0)] {
+        let listed = Kernel { entries: 16, ..Kernel::LIGHT };
+        for other in [Kernel::ADAPTIVE, mixed, listed, gaussian(2.0, 1.0), gaussian(2.0, 3.0), gaussian(-1.0, 2.0)] {
             assert_eq!(Gaussian::of(&other), None, "{other:?}");
         }
     }
