@@ -13,8 +13,8 @@ use super::{Checked, Observer, Report, Stop, Work, decisions, videos, watched};
 use crate::diagnostic::{Code, ConvertError, DEPTH, Diagnostic, Result, SCALE};
 use crate::engine::unfiltered::{OutputFile, formula, st_map};
 use crate::engine::{
-    Engine, FrameFile, FrameLight, FrameWords, InterpolationReport, Levels, LightReport, Sequence, Stage, Stages,
-    ViewImage, Watcher, Which, WriterOptions, warnings,
+    Engine, FrameFile, FrameLight, FrameWords, InterpolationReport, Levels, LightReport, Sequence, Spent, Stage,
+    Stages, ViewImage, Watcher, Which, WriterOptions, warnings,
 };
 use crate::job::options::write_options;
 use crate::job::{Content, ConvertJob, FrameOutputs};
@@ -272,7 +272,7 @@ pub(super) fn light_of(job: &ConvertJob, engine: &Engine, stages: &Stages, frame
         // In the order of files, so that of several errors it is always the same that is told.
         files.map(|file| file.read(job, engine.pool())).collect::<Vec<_>>().into_iter().collect::<Result<Vec<_>>>()
     })?;
-    let images: Vec<ViewImage> = images.into_iter().flatten().collect();
-    light.fill(job, frame.frame, &images, (stages, engine.pool()))?;
+    let mut images: Vec<ViewImage> = images.into_iter().flatten().collect();
+    light.fill(job, frame.frame, (&mut images, Spent::Freed), (stages, engine.pool()))?;
     Ok(light)
 }

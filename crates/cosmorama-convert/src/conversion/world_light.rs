@@ -176,7 +176,8 @@ impl WorldLight {
             let is_complete = AllTexels::of_texels(world, texels).is_complete();
             let unseen = light_of_unseen(&self.job, is_complete)?;
             let unseen = (!is_complete).then_some(unseen);
-            let Ok(light) = Light::new(world, texels.to_vec()) else { bail!("the light is not that of the views") };
+            let texels = light.into_floats().into_iter().next().unwrap_or_default();
+            let Ok(light) = Light::new(world, texels) else { bail!("the light is not that of the views") };
             let primaries = self.job.light.working.primaries;
             Ok(Radiance { world: world.clone(), light, unseen, primaries, diagnostics })
         })
@@ -269,7 +270,7 @@ impl WorldLight {
     }
 
     /// Returns the world, of a stereo pair the left eye's, with its light.
-    fn first<'a>(&'a self, light: &'a FrameLight) -> Result<(&'a World, &'a [Rgba])> {
+    fn first<'a, 'l>(&'a self, light: &'l FrameLight) -> Result<(&'a World, &'l [Rgba])> {
         match (self.job.worlds.first(), light.texels()) {
             (Some(world), Texels::Float(lights)) => Ok((world, &lights[0])),
             _ => bail!("light of 8 bits where floats were expected"),

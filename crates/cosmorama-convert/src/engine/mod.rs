@@ -17,7 +17,7 @@ pub use lighting::light_maps::LightReport;
 pub use timing::CpuSeconds;
 
 pub(crate) use frame::files::{FrameFile, ViewImage, Which};
-pub(crate) use frame::light::{Counts, FrameLight, Texels};
+pub(crate) use frame::light::{Counts, FrameLight, Spent, Texels};
 pub(crate) use frame::pictures::Engine;
 pub(crate) use geometry::{Geometry, WorldLight};
 pub(crate) use layers::LayerPass;

@@ -16,7 +16,7 @@ use rayon::{Scope, ThreadPool};
 use crate::diagnostic::{InPlace, Result, bail};
 use crate::engine::frame::files::named;
 use crate::engine::lighting::between::{Between, InterpolationReport};
-use crate::engine::{Engine, FrameFile, FrameLight, FrameWords, Levels, Stage, Stages, ViewImage, Which};
+use crate::engine::{Engine, FrameFile, FrameLight, FrameWords, Levels, Spent, Stage, Stages, ViewImage, Which};
 use crate::job::{ConvertJob, FrameOutputs, QueueDepth};
 
 /// The frames of a job while they are made.
@@ -107,9 +107,10 @@ impl<'a> Sequence<'a> {
                 self.engine.writer().leave_out(place - 1)?;
                 continue;
             };
-            let images: Vec<ViewImage> = images.into_iter().flatten().collect();
+            let mut images: Vec<ViewImage> = images.into_iter().flatten().collect();
             let memory = self.engine.pool();
-            let filled = self.pool.install(|| light.fill(self.job, frame.frame, &images, (self.stages, memory)));
+            let read = (&mut images[..], Spent::Kept);
+            let filled = self.pool.install(|| light.fill(self.job, frame.frame, read, (self.stages, memory)));
             filled.at(|| named(frame)).map_err(failed)?;
             images.into_iter().for_each(|image| memory.give(image.image.into_samples()));
             watcher.look(frame, &light);

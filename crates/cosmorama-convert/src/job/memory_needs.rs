@@ -149,10 +149,22 @@ impl FrameNeeds {
         Self { prepared: self.prepared.saturating_add(bytes), ..self }
     }
 
-    /// Returns the bytes that a single frame takes at once, at most, without those of the program.
+    /// Returns the bytes that a single frame takes at once, at most, without those of the program. Its samples are freed as they
+    /// become light.
     pub(crate) fn peak(self) -> u64 {
         let Samples { all, scratch, .. } = self.samples;
-        let read = sum([all, scratch.max(self.light)]);
+        let beside = self.light.min((BAND * size_of::<Rgba>()) as u64);
+        self.peak_reading(sum([all, scratch]).max(sum([all.max(self.light), beside])))
+    }
+
+    /// Returns the bytes that a frame takes at once, at most, if its samples stay for the next one.
+    pub(crate) fn peak_kept(self) -> u64 {
+        let Samples { all, scratch, .. } = self.samples;
+        self.peak_reading(sum([all, scratch.max(self.light)]))
+    }
+
+    /// Returns the bytes that a frame takes at once, at most, where reading takes so many.
+    fn peak_reading(self, read: u64) -> u64 {
         let filtered = sum([self.light, self.prepared, self.pictures, self.piece, self.bands]);
         let written = sum([self.pictures, self.encoded]);
         self.shared.saturating_add(read.max(filtered).max(written))
@@ -319,6 +331,9 @@ impl MemoryBudget {
         QueueDepth::fitting(room, needs.in_sequence(), (wanted(needs.samples.files), wanted(files)))
     }
 }
+
+/// Approximate number of texels that are decoded before their samples are freed.
+pub(crate) const BAND: usize = 1 << 20;
 
 /// Memory of the program without pictures, with its tables.
 const PROGRAM: u64 = 20 << 20;

@@ -17,7 +17,7 @@ pub use resume::Remade;
 
 pub(crate) use content::Content;
 pub(crate) use convert_job::{ConvertJob, Purpose};
-pub(crate) use memory_needs::{FrameNeeds, Held, program_bytes};
+pub(crate) use memory_needs::{BAND, FrameNeeds, Held, program_bytes};
 pub(crate) use origin::settings_of;
 pub(crate) use outputs::{FrameOutputs, Outputs, Space, compressed, files_read};
 pub(crate) use queue_depth::{FrameMemory, QueueDepth};

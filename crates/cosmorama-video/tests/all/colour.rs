@@ -5,7 +5,7 @@ use std::path::Path;
 use cosmorama::raster::Depth;
 use cosmorama_video::{ColourTags, Ffmpeg, Ratio, ReadOptions, SignalRange, VideoWriter, WriteSettings};
 
-use crate::common::{ffmpeg, frames, raw, run, values};
+use crate::common::{ffmpeg, frames, raw, rgb_picture, run, values};
 
 /// Weights of red and blue by the number of a matrix.
 fn weights(matrix: u8) -> (f64, f64) {
@@ -181,13 +181,7 @@ fn chroma_is_written_at_its_columns() {
     let path = folder.path().join("a.mp4");
     let pixel = |at: usize| rgb([126.0, ramp(at % 64), 128.0], 1, SignalRange::Narrow, 8);
     for (depth, codec) in [(Depth::Eight, "-crf 0"), (Depth::Sixteen, "-x265-params lossless=1:log-level=error")] {
-        let flat = (0..64 * 64).flat_map(pixel);
-        let samples = match depth {
-            Depth::Eight => cosmorama::raster::Samples::U8(flat.map(|value| (value * 255.0).round() as u8).collect()),
-            _ => cosmorama::raster::Samples::U16(flat.map(|value| (value * 65535.0).round() as u16).collect()),
-        };
-        let image =
-            cosmorama::raster::EncodedImage::new(64, 64, cosmorama::raster::Channels::Rgb, depth, samples).unwrap();
+        let image = rgb_picture((64, 64), depth, (0..64 * 64).flat_map(pixel));
         let arguments = codec.split(' ').map(str::to_owned).collect();
         let settings = WriteSettings { depth, arguments, ..WriteSettings::new((64, 64), Ratio::new(25, 1).unwrap()) };
         let mut writer = VideoWriter::create(&ffmpeg, &path, settings, &Default::default()).unwrap();
@@ -224,13 +218,7 @@ fn what_is_written_has_the_codes_of_its_tags() {
         let depth = if bits > 8 { Depth::Sixteen } else { Depth::Eight };
         // Patches of 16 x 16 pixels, so that chroma has one colour in its middle.
         let pixel = |at: usize| levels(at / 64 / 16 * 4 + at % 64 / 16);
-        let flat = (0..64 * 64).flat_map(pixel);
-        let samples = match depth {
-            Depth::Eight => cosmorama::raster::Samples::U8(flat.map(|value| (value * 255.0).round() as u8).collect()),
-            _ => cosmorama::raster::Samples::U16(flat.map(|value| (value * 65535.0).round() as u16).collect()),
-        };
-        let image =
-            cosmorama::raster::EncodedImage::new(64, 64, cosmorama::raster::Channels::Rgb, depth, samples).unwrap();
+        let image = rgb_picture((64, 64), depth, (0..64 * 64).flat_map(pixel));
         let primaries = if matrix == 9 { 9 } else { 1 };
         let colour = ColourTags {
             primaries: Some(primaries),

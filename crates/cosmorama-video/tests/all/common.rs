@@ -79,6 +79,15 @@ pub(crate) fn picture(size: (usize, usize), channels: Channels, depth: Depth, nu
     EncodedImage::new(size.0, size.1, channels, depth, samples).unwrap()
 }
 
+/// A picture of RGB from values, 1 the greatest code.
+pub(crate) fn rgb_picture(size: (usize, usize), depth: Depth, values: impl Iterator<Item = f64>) -> EncodedImage {
+    let samples = match depth {
+        Depth::Eight => Samples::U8(values.map(|value| (value * 255.0).round() as u8).collect()),
+        _ => Samples::U16(values.map(|value| (value * 65535.0).round() as u16).collect()),
+    };
+    EncodedImage::new(size.0, size.1, Channels::Rgb, depth, samples).unwrap()
+}
+
 /// Names in a folder, in order.
 pub(crate) fn names(folder: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(folder).unwrap();

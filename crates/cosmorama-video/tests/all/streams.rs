@@ -9,7 +9,7 @@ use cosmorama_video::{
     Y4mFormat, Y4mReader, Y4mWriter,
 };
 
-use crate::common::{difference, ffmpeg, frames, picture, raw, run};
+use crate::common::{difference, ffmpeg, frames, picture, raw, rgb_picture, run};
 
 const MEMORY: u64 = 1 << 24;
 
@@ -21,11 +21,7 @@ fn smooth(width: usize, height: usize, depth: Depth, number: usize) -> EncodedIm
         0.5 + 0.35 * waves[c].sin()
     };
     let count = width * height * 3;
-    let samples = match depth {
-        Depth::Eight => Samples::U8((0..count).map(|at| (value(at) * 255.0).round() as u8).collect()),
-        _ => Samples::U16((0..count).map(|at| (value(at) * 65535.0).round() as u16).collect()),
-    };
-    EncodedImage::new(width, height, Channels::Rgb, depth, samples).unwrap()
+    rgb_picture((width, height), depth, (0..count).map(value))
 }
 
 fn image(bytes: &[u8], width: usize, height: usize) -> EncodedImage {
@@ -57,12 +53,13 @@ fn y4m_of_ffmpeg_is_read() {
     for (format, range) in [
         ("yuv420p", "tv"),
         ("yuvj420p", "pc"),
+        ("yuv420p10le", "tv"),
         ("yuv422p", "tv"),
         ("yuv444p", "tv"),
         ("yuv422p12le", "tv"),
         ("yuv444p16le", "tv"),
     ] {
-        let place = place("out", format.contains("420p"));
+        let place = place("out", ["yuv420p", "yuvj420p"].contains(&format));
         let filter = format!(
             "scale=out_color_matrix=bt601:out_range={range}:{place}flags=accurate_rnd+full_chroma_int+full_chroma_inp"
         );
@@ -74,11 +71,7 @@ fn y4m_of_ffmpeg_is_read() {
         assert_eq!(reader.format().size, (64, 48));
         for picture in &pictures {
             let found = reader.next_frame().unwrap().unwrap();
-            let worst = crate::common::values(&found)
-                .iter()
-                .zip(crate::common::values(picture))
-                .map(|(a, b)| (a - b).abs())
-                .fold(0.0, f64::max);
+            let worst = difference(&found, picture);
             let allowed = if format.contains("444") { 2.5 } else { 10.0 } / 255.0;
             assert!(worst <= allowed, "{format}: {}", worst * 255.0);
         }

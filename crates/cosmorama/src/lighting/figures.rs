@@ -25,19 +25,37 @@ impl LightFigures {
     /// When there are not as many texels as the world has.
     pub fn of(world: &World, texels: &[Rgba]) -> Self {
         assert_eq!(texels.len(), world.texel_count(), "one texel of light for each texel of the world");
-        let rows: Vec<Row> =
-            world.sources().iter().flat_map(|source| Row::all(source, &texels[source.texels()])).collect();
+        let views: Vec<&[Rgba]> = world.sources().iter().map(|source| &texels[source.texels()]).collect();
+        Self::of_views(world, &views)
+    }
+
+    /// Measures the light of a world's views, each given by its texels.
+    ///
+    /// # Panics
+    /// When there are not as many views, or texels of one, as the world has.
+    pub fn of_views(world: &World, views: &[&[Rgba]]) -> Self {
+        assert_eq!(views.len(), world.sources().len(), "light for each view");
+        let each = || world.sources().iter().zip(views.iter().copied());
+        let fits = |(source, texels): (&Source, &[Rgba])| source.texels().len() == texels.len();
+        assert!(each().all(fits), "one texel of light for each texel of a view");
+        let rows: Vec<Row> = each().flat_map(|(source, texels)| Row::all(source, texels)).collect();
         let whole = 4.0 * std::f64::consts::PI;
         let sum = |channel: usize| rows.iter().map(|row| row.sum[channel]).sum::<f64>();
         let light = [0, 1, 2].map(sum);
         let peak = rows.iter().fold(0.0f32, |peak, row| peak.max(row.peak));
-        let suns = suns(world, texels, &rows);
+        let suns = suns(each(), &rows);
         Self { mean: light.map(|light| light / whole), peak, suns, shown: sum(3) / whole }
+    }
+
+    /// Returns the figures of light that is brighter by a factor.
+    #[must_use]
+    pub fn scaled(self, factor: f64) -> Self {
+        Self { mean: self.mean.map(|light| light * factor), peak: (f64::from(self.peak) * factor) as f32, ..self }
     }
 }
 
 /// Returns the part of all light that comes from suns and lamps. Only rows that may have some are looked at again.
-fn suns(world: &World, texels: &[Rgba], rows: &[Row]) -> f64 {
+fn suns<'a>(views: impl Iterator<Item = (&'a Source, &'a [Rgba])>, rows: &[Row]) -> f64 {
     let (bright, angle): (f64, f64) =
         rows.iter().fold((0.0, 0.0), |(bright, angle), row| (bright + row.bright, angle + row.angle));
     if bright <= 0.0 {
@@ -45,9 +63,9 @@ fn suns(world: &World, texels: &[Rgba], rows: &[Row]) -> f64 {
     }
     let least = World::SUN * bright / angle;
     let (mut suns, mut rows) = (0.0, rows.iter());
-    for source in world.sources() {
+    for (source, texels) in views {
         let (angles, width) = (texel_angles(source), source.view.width());
-        let of_view = texels[source.texels()].chunks(width).zip(angles.chunks(width)).zip(rows.by_ref());
+        let of_view = texels.chunks(width).zip(angles.chunks(width)).zip(rows.by_ref());
         for ((texels, angles), _) in of_view.filter(|(_, row)| f64::from(row.peak) > least) {
             let lights = texels.iter().zip(angles).map(|(texel, angle)| (brightness(*texel), f64::from(*angle)));
             suns += lights.filter(|(light, _)| *light > least).map(|(light, angle)| light * angle).sum::<f64>();
@@ -110,5 +128,9 @@ mod tests {
         let lamp = |k: usize| Rgba::opaque(if k == 64 * 10 { 1.0 } else { 0.0 }, 0.0, 0.0);
         let figures = LightFigures::of(&world, &(0..64 * 32).map(lamp).collect::<Vec<_>>());
         assert!((figures.suns - 1.0).abs() < 1e-9, "{}", figures.suns);
+        let brighter: Vec<Rgba> = (0..64 * 32).map(|k| Rgba(lamp(k).0.map(|sample| 4.0 * sample))).collect();
+        let LightFigures { mean, peak, suns, .. } = figures.scaled(4.0);
+        let expected = LightFigures::of(&world, &brighter);
+        assert_eq!((mean, peak, suns), (expected.mean, expected.peak, expected.suns));
     }
 }

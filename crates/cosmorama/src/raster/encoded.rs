@@ -79,6 +79,22 @@ impl EncodedImage {
         Self { alpha_mode, ..self }
     }
 
+    /// Keeps the first rows, at most `count`, and gives the memory of all others back: where light replaces samples, both
+    /// need not be held.
+    ///
+    /// ```
+    /// use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
+    ///
+    /// let mut image = EncodedImage::new(1, 3, Channels::Grey, Depth::Eight, Samples::U8(vec![5, 6, 7]))?;
+    /// image.keep_rows(2);
+    /// assert_eq!((image.height(), image.samples()), (2, &Samples::U8(vec![5, 6])));
+    /// # Ok::<(), cosmorama::raster::ImageError>(())
+    /// ```
+    pub fn keep_rows(&mut self, count: usize) {
+        self.height = self.height.min(count);
+        self.samples.keep(self.width * self.height * self.channels.count());
+    }
+
     /// Returns the image without its alpha. Colours that were multiplied by it are divided, except where it is 0.
     #[must_use]
     pub fn without_alpha(self) -> Self {

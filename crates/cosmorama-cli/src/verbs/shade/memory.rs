@@ -4,8 +4,8 @@ use cosmorama_convert::Radiance;
 
 use super::camera::Shot;
 
-/// Bytes of a texel under which things are lit: its light twice while it is read, its solid angle, and its part of blocks of light.
-const LIT: usize = 2 * size_of::<Rgba>() + size_of::<f32>() + 11;
+/// Bytes of a texel under which things are lit: its light, its solid angle, and its part of blocks of light.
+const LIT: usize = size_of::<Rgba>() + size_of::<f32>() + 11;
 
 /// Returns the memory that pictures of things need, beside the things themselves and the program.
 pub(super) fn needed(lights: &[Radiance], shots: &[Shot], frames: usize, filter: FilterSettings) -> u64 {

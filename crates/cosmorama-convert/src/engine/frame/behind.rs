@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::pictures::lock;
 use crate::diagnostic::{Diagnostic, Result};
 use crate::engine::warnings::Tally;
-use crate::engine::{Engine, FrameFile, FrameLight, Stages, ViewImage, Which, WriterOptions};
+use crate::engine::{Engine, FrameFile, FrameLight, Spent, Stages, ViewImage, Which, WriterOptions};
 use crate::job::ConvertJob;
 
 /// The world behind the input, with its light in the frame that is made.
@@ -77,8 +77,9 @@ impl<'a> Behind<'a> {
         let files = FrameFile::all(job, frame, if is_first { Which::All } else { Which::Moving });
         // In the order of files, so that of several errors it is always the same that is told.
         let read: Vec<Result<Vec<ViewImage>>> = files.into_par_iter().map(|file| file.read(job, pool)).collect();
-        let images: Vec<ViewImage> = read.into_iter().collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
-        held.light.fill(job, frame, &images, (&Stages::default(), pool))?;
+        let mut images: Vec<ViewImage> = read.into_iter().collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
+        let spent = if job.input.frames.len() > 1 { Spent::Kept } else { Spent::Freed };
+        held.light.fill(job, frame, (&mut images, spent), (&Stages::default(), pool))?;
         images.into_iter().for_each(|image| pool.give(image.image.into_samples()));
         held.frame = Some(frame);
         lock(&self.tally).add(job, frame, &held.light);

@@ -1,6 +1,7 @@
 use std::collections::BTreeSet;
+use std::ops::AddAssign;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, OnceLock};
 
 use cosmorama::filter::{ClassicTables, FilterKind};
 use cosmorama::raster::{Decoder, FixedDecoder, FixedLight, FramePool, IrregularPixels, Rgba, Transfer};
@@ -11,7 +12,7 @@ use rayon::prelude::*;
 use crate::colour::{FileColours, LightConversion};
 use crate::diagnostic::{RESUME, Result, bail};
 use crate::engine::{FrameFile, Stage, Stages, ViewImage, Which};
-use crate::job::ConvertJob;
+use crate::job::{BAND, ConvertJob};
 use crate::source::{Files, Stamp};
 
 /// Light of a frame. Its memory, and views that do not change, are reused for the next frame.
@@ -48,6 +49,15 @@ pub(crate) enum Texels {
 /// Approximate number of texels that a thread decodes at once.
 const PIECE: usize = 1 << 16;
 
+/// Fate of the samples of images that have been decoded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Spent {
+    /// They stay: their memory serves the next frame.
+    Kept,
+    /// They are freed as they are decoded, from the last row on, so that they are never held beside all of their light.
+    Freed,
+}
+
 impl FrameLight {
     /// Allocates the light of a job's frames.
     pub(crate) fn new(job: &ConvertJob, is_fixed: bool) -> Self {
@@ -79,6 +89,14 @@ impl FrameLight {
     /// Returns all texels.
     pub(crate) fn texels(&self) -> &Texels {
         &self.texels
+    }
+
+    /// Returns the texels of each world, if they are floats.
+    pub(crate) fn into_floats(self) -> Vec<Vec<Rgba>> {
+        match self.texels {
+            Texels::Float(worlds) => worlds,
+            Texels::Fixed(_) => Vec::new(),
+        }
     }
 
     /// Returns what the filter computes of a world's light once: for all pictures, faces and moments, until the light changes.
@@ -116,12 +134,12 @@ impl FrameLight {
         )
     }
 
-    /// Decodes a frame: all its views, or those that change from frame to frame.
+    /// Decodes a frame: all its views, or those that change from frame to frame. Images that are freed have no rows left.
     pub(crate) fn fill(
         &mut self,
         job: &ConvertJob,
         frame: Option<u64>,
-        images: &[ViewImage],
+        (images, spent): (&mut [ViewImage], Spent),
         (stages, pool): (&Stages, &FramePool),
     ) -> Result<()> {
         // A frame unlike the first, with alpha or in another encoding, is held in floats. What a frame becomes must not
@@ -135,12 +153,12 @@ impl FrameLight {
         }
         if !self.has_still && images.len() < self.counts.len() {
             for file in FrameFile::all(job, frame, Which::Still) {
-                let still = stages.beside(Stage::Decode, || file.read(job, pool))?;
+                let mut still = stages.beside(Stage::Decode, || file.read(job, pool))?;
                 if let (true, Some(image)) = (is_fixed, still.iter().find(|image| !self.takes(image))) {
                     let path = image.path.display();
                     bail!(Changed: "{path}: no longer opaque and of 8 bits; leave files alone while they are read");
                 }
-                self.decode(job, &still, stages)?;
+                self.decode(job, (&mut still, spent), stages)?;
             }
         }
         self.has_still = true;
@@ -150,7 +168,7 @@ impl FrameLight {
         let is_announced = job.light.input_alpha || job.light.channels.has_alpha();
         let flattened = images.iter().filter(|image| !is_announced && !image.image.is_opaque());
         self.flattened = flattened.map(|image| image.path.clone()).collect();
-        self.decode(job, images, stages)
+        self.decode(job, (images, spent), stages)
     }
 
     /// Returns whether an image can be held in 15 bits.
@@ -167,7 +185,8 @@ impl FrameLight {
         self.fixed_decoders[index].1.as_ref().is_some_and(|decoder| decoder.takes(&image.image))
     }
 
-    fn decode(&mut self, job: &ConvertJob, images: &[ViewImage], stages: &Stages) -> Result<()> {
+    fn decode(&mut self, job: &ConvertJob, (images, spent): (&mut [ViewImage], Spent), stages: &Stages) -> Result<()> {
+        let sizes: Vec<usize> = images.iter().map(|image| image.image.width() * image.image.height()).collect();
         if !images.is_empty() {
             self.tables.fill(OnceLock::new());
         }
@@ -182,7 +201,7 @@ impl FrameLight {
                     // An integer is always a number, and its light is in working primaries.
                     Counts::default()
                 };
-                decode(images, worlds.iter_mut().flat_map(FixedLight::views_mut), stages, rows)
+                decode((images, spent), worlds.iter_mut().flat_map(FixedLight::views_mut), stages, rows)
             }
             Texels::Float(worlds) => {
                 let rows = |image: &ViewImage, first: usize, into: &mut [Rgba]| {
@@ -191,13 +210,12 @@ impl FrameLight {
                     let converted = |conversion: &LightConversion| conversion.convert(into);
                     Counts { irregular, outside: conversion.as_ref().map_or(irregular.negative, converted) }
                 };
-                decode(images, views(job, worlds), stages, rows)
+                decode((images, spent), views(job, worlds), stages, rows)
             }
         };
         texels.restore_rims(job, images, rims);
-        for (image, counts) in images.iter().zip(counts) {
-            let count = image.image.width() * image.image.height();
-            if counts.irregular.missing == count && job.fill_for_missing().is_none() {
+        for ((image, counts), size) in images.iter().zip(counts).zip(sizes) {
+            if counts.irregular.missing == size && job.fill_for_missing().is_none() {
                 let name = job.input.present().nth(image.view).map_or("", |(view, ..)| &view.name);
                 let path = image.path.display();
                 bail!(NotANumber: "{path}: the {name} view holds no light; render it again: every pixel is NaN");
@@ -256,31 +274,61 @@ pub(crate) struct Counts {
     pub(crate) outside: usize,
 }
 
+impl AddAssign for Counts {
+    fn add_assign(&mut self, other: Self) {
+        self.irregular = self.irregular + other.irregular;
+        self.outside += other.outside;
+    }
+}
+
 /// Decodes images in parallel pieces, and returns the counts of each. Each view is given by its rows,
 /// all of one length; `rows` decodes some of them.
 fn decode<'a, T: Send + 'a>(
-    images: &[ViewImage],
+    (images, spent): (&mut [ViewImage], Spent),
     views: impl Iterator<Item = &'a mut [T]>,
     stages: &Stages,
     rows: impl Fn(&ViewImage, usize, &mut [T]) -> Counts + Sync,
 ) -> Vec<Counts> {
     let mut views: Vec<_> = views.map(Some).collect();
-    let counts: Vec<Mutex<Counts>> = images.iter().map(|_| Mutex::default()).collect();
-    let mut pieces = Vec::new();
-    for (image, counts) in images.iter().zip(&counts) {
-        let some = PIECE.div_ceil(image.image.width().max(1));
-        let view = views[image.view].take().expect("one image for each view");
-        let pitch = (view.len() / image.image.height().max(1)).max(1);
-        let texels = view.chunks_mut(some * pitch).enumerate();
-        pieces.extend(texels.map(|(piece, into)| (image, counts, piece * some, into)));
+    let mut view = |image: &ViewImage| views[image.view].take().expect("one image for each view");
+    let rows =
+        |image: &ViewImage, first: usize, into: &mut [T]| stages.beside(Stage::Decode, || rows(image, first, into));
+    match spent {
+        Spent::Kept => {
+            let pieces = images.iter().enumerate().flat_map(|(index, image)| {
+                let piece = move |(first, into)| (index, image, first, into);
+                pieces(image, 0, view(image)).map(piece)
+            });
+            let pieces: Vec<_> = pieces.collect();
+            let found = pieces.into_par_iter().map(|(index, image, first, into)| (index, rows(image, first, into)));
+            let mut counts = vec![Counts::default(); images.len()];
+            found.collect::<Vec<_>>().into_iter().for_each(|(index, found)| counts[index] += found);
+            counts
+        }
+        Spent::Freed => {
+            let freed = |image: &mut ViewImage| {
+                let (mut rest, mut counts) = (view(image), Counts::default());
+                let pitch = rest.len() / image.image.height().max(1);
+                while image.image.height() > 0 {
+                    let first = image.image.height().saturating_sub(BAND.div_ceil(image.image.width().max(1)));
+                    let band = rest.split_off_mut(first * pitch..).expect("as many rows as the image has");
+                    let band: Vec<_> = pieces(image, first, band).collect();
+                    let found = band.into_par_iter().map(|(first, into)| rows(image, first, into));
+                    found.collect::<Vec<_>>().into_iter().for_each(|found| counts += found);
+                    image.image.keep_rows(first);
+                }
+                counts
+            };
+            images.iter_mut().map(freed).collect()
+        }
     }
-    pieces.into_par_iter().for_each(|(image, counts, first, into)| {
-        let found = stages.beside(Stage::Decode, || rows(image, first, into));
-        let mut counts = counts.lock().unwrap_or_else(PoisonError::into_inner);
-        counts.irregular = counts.irregular + found.irregular;
-        counts.outside += found.outside;
-    });
-    counts.into_iter().map(|counts| counts.into_inner().unwrap_or_else(PoisonError::into_inner)).collect()
+}
+
+/// Returns an image's texels in pieces for threads, each with its first row, where the texels begin with row `first`.
+fn pieces<'a, T>(image: &ViewImage, first: usize, texels: &'a mut [T]) -> impl Iterator<Item = (usize, &'a mut [T])> {
+    let some = PIECE.div_ceil(image.image.width().max(1));
+    let pitch = (texels.len() / (image.image.height() - first).max(1)).max(1);
+    texels.chunks_mut(some * pitch).enumerate().map(move |(piece, into)| (first + piece * some, into))
 }
 
 /// Limits light to white, as in files of integers, so that 15 bits and floats give the same.

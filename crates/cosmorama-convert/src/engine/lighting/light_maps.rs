@@ -143,15 +143,13 @@ impl LightReport {
             let of_level: Vec<_> = maps.iter().filter(|(target, _)| target.level == level).collect();
             let first = || of_level.iter().filter(|(target, _)| target.world(2) == 0);
             let world = World::new(first().map(|(target, _)| (target.name.clone(), target.view.clone()))).ok()?;
-            let scale = (settings.factor() * factor).recip() as f32;
-            let radiance: Vec<Rgba> =
-                first().flat_map(|(_, image)| image.pixels()).map(|pixel| scaled(*pixel, scale)).collect();
+            let views: Vec<&[Rgba]> = first().map(|(_, image)| image.pixels()).collect();
             let alpha = match kind {
                 LightLevel::Mirror => Some(0.0),
                 LightLevel::Lobe(lobe) => lobe.alpha(),
                 LightLevel::Halved => None,
             };
-            let output = LightFigures::of(&world, &radiance);
+            let output = LightFigures::of_views(&world, &views).scaled((settings.factor() * factor).recip());
             let overflowed = overflowed(job, of_level.iter().map(|(_, image)| *image));
             Some(Self { frame, level, alpha, input, output, scale: factor, overflowed })
         };

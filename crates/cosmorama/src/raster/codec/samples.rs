@@ -41,6 +41,20 @@ impl Samples {
         size * self.len() as u64
     }
 
+    /// Keeps the first samples, and gives the memory of all others back.
+    pub(crate) fn keep(&mut self, count: usize) {
+        fn keep<S>(samples: &mut Vec<S>, count: usize) {
+            samples.truncate(count);
+            samples.shrink_to_fit();
+        }
+        match self {
+            Self::U8(samples) => keep(samples, count),
+            Self::U16(samples) => keep(samples, count),
+            Self::Half(samples) => keep(samples, count),
+            Self::Float(samples) => keep(samples, count),
+        }
+    }
+
     /// Returns the address of the samples in memory.
     pub(crate) fn address(&self) -> usize {
         match self {
