@@ -1,4 +1,4 @@
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use cosmorama::filter::FilterKind;
@@ -10,8 +10,8 @@ use cosmorama_io::pending::Unfinished;
 use cosmorama_io::{CameraPath, Compression, FrameList, Remark};
 use cosmorama_spec::{FilterName, FrameMap, KernelName, MemorySize, Missing, Size, Spec, TimeRanges, TransferName};
 
-use crate::source::video::VideoSettings;
-use crate::source::{Disk, Files};
+use crate::source::video::{PictureSink, VideoSettings};
+use crate::source::{Disk, Files, ViewFiles};
 
 /// Settings of a conversion from an input, in any form, to pictures of another projection.
 ///
@@ -80,8 +80,10 @@ pub struct Conversion {
     pub existing: Existing,
     /// Whether folders of outputs that do not exist are made; else they are an error.
     pub make_folders: bool,
-    /// Whether the output goes to a stream, which holds one picture.
+    /// Whether the output goes to a stream, which holds one picture, or the frames of a stream of raw pictures.
     pub to_stream: bool,
+    /// Goal of an output that is a stream of raw pictures, to which they are passed on as they are made. Without it they become a file.
+    pub sink: Option<PictureSink>,
     /// Whether mip levels are written, in formats that hold them.
     pub mips: bool,
     /// JPEG quality from 1 to 100; that of [`cosmorama_io::WriteOptions`], unless given.
@@ -423,6 +425,7 @@ impl Default for Conversion {
             existing: Existing::default(),
             make_folders: true,
             to_stream: false,
+            sink: None,
             mips: false,
             quality: None,
             compression: None,
@@ -439,6 +442,21 @@ impl Conversion {
     /// Creates default settings for a conversion from an input to an output.
     pub fn new(input: impl Into<String>, output: impl Into<String>) -> Self {
         Self { input: input.into(), output: output.into(), ..Self::default() }
+    }
+
+    /// Returns whether frames of the input are asked for in order, each once, so that a stream can be read as it comes. Where its end must
+    /// be known before, as for a camera that turns over all frames, or a frame be found again, it must be kept.
+    pub fn reads_in_order(&self) -> bool {
+        let takes_frames = || ViewFiles::new(Path::new(&self.output)).has_frames();
+        let is_forward = |list: &FrameList| list.frames().windows(2).all(|pair| pair[0] < pair[1]);
+        self.light.is_none()
+            && !self.st_map
+            && self.geometry.camera.is_none()
+            && self.geometry.in_path.is_none()
+            && self.backdrop.is_none()
+            && self.times.is_none()
+            && self.existing != Existing::Resume
+            && self.frames.as_ref().map_or_else(takes_frames, is_forward)
     }
 
     /// Sets the input's projection.

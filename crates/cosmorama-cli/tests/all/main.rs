@@ -32,6 +32,8 @@ mod input {
     mod bad_input;
     mod builtin;
     mod detection;
+    #[cfg(feature = "video")]
+    mod live;
     mod pipes;
     mod real_data;
     mod st_maps;

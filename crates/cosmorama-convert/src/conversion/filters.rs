@@ -131,7 +131,7 @@ impl FilterTrials {
         truth: Option<&Path>,
         observer: &mut dyn Observer,
     ) -> Result<FilterReport> {
-        observer.begin(1);
+        observer.begin(Some(1));
         let Radiance { world, light, primaries, diagnostics, .. } = self.input.radiance()?;
         let laboratory = Laboratory::bytes(&world, &self.view) as u64;
         let pixels = format!("; the picture has {}x{} pixels", self.view.width(), self.view.height());
@@ -274,7 +274,7 @@ impl References<'_> {
 }
 
 /// Error of work that the observer stopped.
-const STOPPED: ConvertError = ConvertError::Stopped { done: 0, frames: 1 };
+const STOPPED: ConvertError = ConvertError::Stopped { done: 0, frames: Some(1) };
 
 fn stopped(_: Stopped) -> ConvertError {
     STOPPED

@@ -10,7 +10,7 @@ pub(crate) mod video;
 pub(crate) mod view_files;
 pub(crate) mod wanted_frames;
 
-pub use access::{Disk, Files, InMemory, probe, read, with_videos};
+pub use access::{Disk, Files, InMemory, LiveStream, probe, read, with_videos};
 pub use memory_budget::MemoryBudget;
 pub use stamp::Stamp;
 pub use system_memory::peak_bytes;

@@ -76,7 +76,7 @@ impl Verification<'_> {
         let wanted = self.wanted(&pattern, files)?;
         let memory = self.memory_beside(wanted.len())?;
         let (pool, limits) = (threads(self.limits.threads)?, Limits::memory(memory.bytes));
-        observer.begin(wanted.len());
+        observer.begin(Some(wanted.len()));
         let mut frames: Vec<Frame> = Vec::with_capacity(wanted.len());
         let mut rest = &wanted[..];
         while !rest.is_empty() {
@@ -91,7 +91,7 @@ impl Verification<'_> {
             for (number, frame) in some.iter().zip(found) {
                 frames.push(frame?);
                 if observer.frame_done(Some(*number)) == ControlFlow::Break(Stop) {
-                    return Err(ConvertError::Stopped { done: frames.len(), frames: wanted.len() });
+                    return Err(ConvertError::Stopped { done: frames.len(), frames: Some(wanted.len()) });
                 }
             }
             rest = later;

@@ -8,7 +8,7 @@ use cosmorama_io::pending::Unfinished;
 use cosmorama_io::{Header, ImageFile, IoError, Limits};
 use cosmorama_spec::{FrameRate, Spec};
 
-use super::{DamagedFrames, FrameName, RawFiles, VideoPlan};
+use super::{Coming, DamagedFrames, FrameName, PictureSink, RawFiles, VideoPlan};
 use crate::diagnostic::{Diagnostic, Result};
 
 /// Videos among the inputs: none.
@@ -40,8 +40,12 @@ impl Videos {
         Err(refusal(&name.video))
     }
 
-    pub(crate) fn count(&self, video: &Path) -> Result<u64, IoError> {
+    pub(crate) fn count(&self, video: &Path) -> Result<Option<u64>, IoError> {
         Err(refusal(video))
+    }
+
+    pub(crate) fn coming(&self, name: &FrameName, _: bool) -> Result<Coming, IoError> {
+        Err(refusal(&name.video))
     }
 
     pub(crate) fn rate(&self, video: &Path) -> Result<Option<FrameRate>, IoError> {
@@ -93,7 +97,7 @@ impl MadeVideos {
     pub(crate) fn start(
         _: &[(PathBuf, (usize, usize))],
         _: (&VideoPlan, Option<&Videos>),
-        _: &Unfinished,
+        _: (Option<&PictureSink>, &Unfinished),
         _: &mut Vec<Diagnostic>,
     ) -> Result<Self> {
         Ok(Self)

@@ -15,7 +15,7 @@ use cosmorama_video::{
 };
 
 use super::raw::{RawWriter, aside, foreign};
-use super::{DamagedFrames, RawKind, VideoPlan, Videos, described};
+use super::{DamagedFrames, PictureSink, RawKind, VideoPlan, Videos, described};
 use crate::diagnostic::{Code, Diagnostic, FPS, FRAMES, Result, VIDEO_CODEC, usage, usage_as};
 
 /// Videos that a conversion makes.
@@ -81,7 +81,7 @@ impl MadeVideos {
     pub(crate) fn start(
         outputs: &[(PathBuf, (usize, usize))],
         (plan, videos): (&VideoPlan, Option<&Videos>),
-        unfinished: &Unfinished,
+        (sink, unfinished): (Option<&PictureSink>, &Unfinished),
         told: &mut Vec<Diagnostic>,
     ) -> Result<Self> {
         if outputs.is_empty() {
@@ -99,7 +99,7 @@ impl MadeVideos {
             let state =
                 |writer| State { writer: Some(writer), given: 0, early: BTreeMap::new(), left_out: BTreeSet::new() };
             if let Some(kind) = RawKind::of(path) {
-                let writer = RawWriter::create(kind, path, (*size, plan.depth, rate_of(times)), unfinished)?;
+                let writer = RawWriter::create(kind, path, (*size, plan.depth, rate_of(times)), (sink, unfinished))?;
                 let video = MadeVideo { times: Vec::new(), state: Mutex::new(state(Encoder::Raw(Box::new(writer)))) };
                 all.push((path.clone(), video));
                 continue;
@@ -116,7 +116,7 @@ impl MadeVideos {
                 codec: codec(plan)?,
                 arguments: plan.settings.arguments.clone(),
                 source: carried(source, times, told),
-                frames: (plan.settings.damaged != DamagedFrames::Skip).then_some(plan.frames),
+                frames: plan.frames.filter(|_| plan.settings.damaged != DamagedFrames::Skip),
                 ..WriteSettings::new(*size, Ratio::ONE)
             };
             let writer = VideoWriter::create(&ffmpeg, path, settings, unfinished).map_err(foreign)?;
@@ -239,7 +239,7 @@ fn times(
         return Ok((even(rate), Vec::new()));
     }
     let Some((info, frames)) = source else {
-        if plan.frames > 1 {
+        if plan.frames != Some(1) {
             let message = format!(
                 "the video gets {USUAL} frames a second, since nothing tells its rate; give another with {FPS}"
             );
