@@ -11,7 +11,7 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
 use anyhow::{Context, Result, anyhow};
-use cosmorama_convert::{Conversion, Files, InMemory, PictureSink, is_video};
+use cosmorama_convert::{Conversion, Files, InMemory, Name, PictureSink, is_video};
 use cosmorama_io::Format;
 use cosmorama_io::pending::{Scratch, Unfinished};
 
@@ -51,8 +51,8 @@ const BEGIN: u64 = 16;
 impl KeptStreams {
     /// Returns the name of an input that can be read repeatedly. It is the input's own, or that under which a stream is
     /// held in memory.
-    pub(crate) fn input(&mut self, name: &str) -> Result<String> {
-        if name == STREAM {
+    pub(crate) fn input(&mut self, name: &Name) -> Result<Name> {
+        if **name == *STREAM {
             if self.has_stdin {
                 return Err(usage("- is given twice, but standard input can be read only once; name a file"));
             }
@@ -60,13 +60,13 @@ impl KeptStreams {
                 return Err(usage("standard input is a terminal; pipe a picture into it, or name a file"));
             }
             self.has_stdin = true;
-            return self.keep(stdin(), STDIN);
+            return self.keep(stdin(), &STDIN.into());
         }
         if is_pipe(Path::new(name)) {
-            let pipe = told_if_late(name, || File::open(name)).with_context(|| format!("cannot open {name}"))?;
+            let pipe = told_if_late(name, || File::open(name.path())).with_context(|| format!("cannot open {name}"))?;
             return self.keep(pipe, name);
         }
-        Ok(name.to_owned())
+        Ok(name.clone())
     }
 
     /// Returns a source of inputs that has the bytes of the streams, and all other files from disk.
@@ -75,14 +75,14 @@ impl KeptStreams {
     }
 
     /// Holds the bytes of a stream, and returns the name under which it does.
-    fn keep(&mut self, mut source: impl Read + Send + 'static, name: &str) -> Result<String> {
+    fn keep(&mut self, mut source: impl Read + Send + 'static, name: &Name) -> Result<Name> {
         let unread = || format!("cannot read {name}");
         let mut begin = Vec::new();
         (&mut source).take(BEGIN).read_to_end(&mut begin).with_context(unread)?;
         // Streams of many pictures are known by their names.
         let kind = stream_kind(&begin).filter(|kind| is_video(Path::new(&format!("stream.{kind}"))));
         let mut source = Cursor::new(begin).chain(source);
-        let held = kind.map_or_else(|| name.to_owned(), |kind| format!("{name}.{kind}"));
+        let held = kind.map_or_else(|| name.clone(), |kind| named(name, kind));
         match self.unfinished.as_ref().filter(|_| kind.is_some()) {
             Some(_) if self.in_order => self.files.insert_live(&held, BufReader::new(source)),
             Some(unfinished) => {
@@ -102,6 +102,13 @@ impl KeptStreams {
         }
         Ok(held)
     }
+}
+
+/// Returns the name of a stream of some kind.
+fn named(name: &Name, kind: &str) -> Name {
+    let mut named = name.path().as_os_str().to_owned();
+    named.push(format!(".{kind}"));
+    named.into()
 }
 
 /// Returns the extension of a stream of raw pictures, by its first bytes; `None` for other files.
@@ -163,7 +170,7 @@ pub(crate) struct Piped {
 impl Piped {
     /// Reads the inputs that are streams, and makes a folder for an output that goes to standard output.
     pub(crate) fn open(mut args: ConvertArgs, console: &mut Console) -> Result<Self> {
-        check(&args, args.output == STREAM)?;
+        check(&args, *args.output == *STREAM)?;
         let (mut sink, mut scratch, is_closed) = (None, None, Arc::default());
         if let Some(format) = &args.format {
             let mut path = PathBuf::from(format!("{STDOUT}.{}", format.trim_start_matches('.')));
@@ -173,7 +180,7 @@ impl Piped {
                 path = scratch.insert(folder(&console.unfinished)?).path().join(path);
             }
             console.call(&path, STDOUT);
-            args.output = path.display().to_string();
+            args.output = path.into();
         }
         let settings: Conversion = args.clone().into();
         let in_order = settings.reads_in_order();
@@ -192,7 +199,7 @@ impl Piped {
     /// Copies the output to standard output.
     pub(crate) fn finish(self) -> Result<()> {
         if self.scratch.is_some() {
-            let mut file = File::open(&self.args.output).context("nothing was made for standard output")?;
+            let mut file = File::open(self.args.output.path()).context("nothing was made for standard output")?;
             let mut out = stdout().lock();
             match copy(&mut file, &mut out).and_then(|_| out.flush()) {
                 // The reader of our output has closed it, and has seen enough.

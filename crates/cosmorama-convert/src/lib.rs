@@ -40,7 +40,7 @@ pub use settings::{
 };
 pub use source::video::{DamagedFrames, PictureSink, VideoSettings, Videos, is_video};
 pub use source::{
-    Disk, Files, InMemory, LiveStream, MemoryBudget, Stamp, ViewFiles, existing_frames, peak_bytes, probe, read,
+    Disk, Files, InMemory, LiveStream, MemoryBudget, Name, Stamp, ViewFiles, existing_frames, peak_bytes, probe, read,
     with_videos,
 };
 pub use target::{CHAIN_EDGE, Picture, is_cube_of_light};

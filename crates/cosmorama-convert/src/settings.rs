@@ -11,7 +11,7 @@ use cosmorama_io::{CameraPath, Compression, FrameList, Remark};
 use cosmorama_spec::{FilterName, FrameMap, KernelName, MemorySize, Missing, Size, Spec, TimeRanges, TransferName};
 
 use crate::source::video::{PictureSink, VideoSettings};
-use crate::source::{Disk, Files, ViewFiles};
+use crate::source::{Disk, Files, Name, ViewFiles};
 
 /// Settings of a conversion from an input, in any form, to pictures of another projection.
 ///
@@ -31,9 +31,9 @@ use crate::source::{Disk, Files, ViewFiles};
 #[derive(Clone, Debug)]
 pub struct Conversion {
     /// Input: an image, a pattern of faces and frames, a world file, a Hugin project, or `builtin:NAME`.
-    pub input: String,
+    pub input: Name,
     /// Output: an image or a pattern; the extension chooses the format.
-    pub output: String,
+    pub output: Name,
     /// Projections, size, orientation and filter.
     pub geometry: GeometrySettings,
     /// Whether an st map is written instead of a picture.
@@ -169,7 +169,7 @@ pub struct PoseFile {
 #[derive(Clone, Debug)]
 pub struct Backdrop {
     /// Files in any form of an input, or `builtin:NAME`.
-    pub input: String,
+    pub input: Name,
     /// Its projection; detected from metadata, names or shape, unless given.
     pub from: Option<Spec>,
     /// Its frame for each frame of the output.
@@ -184,7 +184,7 @@ pub struct Backdrop {
 
 impl Backdrop {
     /// Returns a backdrop that stands still, in frames of its own numbers, with nothing behind it.
-    pub fn new(input: impl Into<String>) -> Self {
+    pub fn new(input: impl Into<Name>) -> Self {
         Self { input: input.into(), from: None, frames: FrameMap::default(), in_path: None, opacity: 1.0, behind: None }
     }
 }
@@ -399,8 +399,8 @@ impl Default for GeometrySettings {
 impl Default for Conversion {
     fn default() -> Self {
         Self {
-            input: String::new(),
-            output: String::new(),
+            input: Name::default(),
+            output: Name::default(),
             geometry: GeometrySettings::default(),
             st_map: false,
             light: None,
@@ -440,7 +440,7 @@ impl Default for Conversion {
 
 impl Conversion {
     /// Creates default settings for a conversion from an input to an output.
-    pub fn new(input: impl Into<String>, output: impl Into<String>) -> Self {
+    pub fn new(input: impl Into<Name>, output: impl Into<Name>) -> Self {
         Self { input: input.into(), output: output.into(), ..Self::default() }
     }
 

@@ -95,6 +95,7 @@ mod usage {
     mod logs;
     mod messages;
     mod mistakes;
+    mod names;
     mod verbs;
     mod wrong_usage;
 }

@@ -104,7 +104,7 @@ impl Conversion {
 fn target(settings: &Conversion, memory: MemoryBudget, parity: f64) -> Result<View> {
     let files = ChosenFiles::new(Arc::clone(&settings.files), Choice::default(), settings.video.damaged);
     let access = Access { files: &files, memory, decoded: &DecodedPicture::default() };
-    let geometry = settled(&settings.geometry, Some(settings.input.as_str()), access, &mut Vec::new())?;
+    let geometry = settled(&settings.geometry, Some(&settings.input), access, &mut Vec::new())?;
     match &Picture::all(&geometry, None, Some(parity))?[..] {
         [picture] => Ok(picture.view.clone()),
         several => Err(usage(format!(

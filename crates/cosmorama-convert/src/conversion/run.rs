@@ -123,7 +123,7 @@ impl Checked {
         told.extend(run.tally.warnings(job));
         told.extend(engine.tallied_behind());
         // Maps of light are measured by frame.
-        let output = settings.output.as_str();
+        let output = &*settings.output;
         if job.lighting.is_none() {
             told.extend(too_bright((job, output), (None, 0), engine.writer().overflowed()));
         }

@@ -129,7 +129,7 @@ impl ConvertJob {
         warnings: &mut Vec<Diagnostic>,
     ) -> Result<Self> {
         let memory = MemoryBudget::new(settings.limits.memory);
-        let file = content.has_files().then_some(settings.input.as_str());
+        let file = content.has_files().then_some(&settings.input);
         let decoded = DecodedPicture::up_to(memory.bytes / DECODED_PART);
         let files = chosen(settings, content);
         let access = Access { files: &*files, memory, decoded: &decoded };
