@@ -1,6 +1,7 @@
 //! Frames of videos that are read: decoded once each, in order as far as they are asked for so.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
@@ -189,6 +190,15 @@ impl Videos {
     /// When a decoder says at its end that something was damaged.
     pub(crate) fn end(&self) -> Result<(), IoError> {
         self.sources().values().try_for_each(|source| source.end()).map_err(foreign)
+    }
+
+    /// Ends the decoder of a video, and returns the frames that were damaged or missing, with the reasons.
+    pub(crate) fn faults(&self, video: &Path) -> Result<Vec<(Range<u64>, String)>, IoError> {
+        let source = self.source(video)?;
+        let mut state = source.state();
+        state.close();
+        let ranged = |(first, (count, reason)): (&u64, &(u64, String))| (*first..first + count, reason.clone());
+        Ok(state.faults.iter().map(ranged).collect())
     }
 
     /// Returns messages about frames that were damaged, and about frames that were not announced; an item for each video.
