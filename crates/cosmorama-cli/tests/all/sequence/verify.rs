@@ -183,7 +183,7 @@ fn frames_of_a_video_are_verified() {
     let codec = ["-c:v", "ffv1", "-pix_fmt", "bgr0", "-g", "1", "-slicecrc", "1"];
     ffmpeg(&bench, &[&["-framerate", "25", "-i", "in_%02d.png"][..], &codec, &["film.mkv"]].concat());
     let verify = |more: &[&str]| -> (Option<i32>, String) {
-        let output = bench.run(&[&["verify"], more].concat());
+        let output = bench.run(&[&["verify", "--progress", "none"], more].concat());
         (output.status.code(), text(&output.stdout) + &text(&output.stderr))
     };
     let (code, told) = verify(&["film.mkv"]);
