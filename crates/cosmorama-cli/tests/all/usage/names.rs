@@ -72,7 +72,9 @@ fn pictures_have_any_name() {
         assert_says(&text(&itself.stderr), &["would replace its own input"]);
         // A name that is missing is told as one line.
         let missing = run(&bench, &[&["convert"], &to[..]].concat(), &[&name(stem, " none.png"), dome]);
-        assert_eq!((missing.status.code(), text(&missing.stderr).matches("error: ").count()), (Some(1), 1));
+        // A dollar sign may be a shell's, which is a mistake of the command.
+        let code = if stem.contains(&b'$') { 2 } else { 1 };
+        assert_eq!((missing.status.code(), text(&missing.stderr).matches("error: ").count()), (Some(code), 1));
     }
 }
 
