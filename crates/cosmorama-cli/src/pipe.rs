@@ -1,15 +1,17 @@
-//! Streams as files. Input is held in memory, or, if it is a stream of many pictures, in a temporary folder. Output is made in a temporary
-//! folder, and passed on when it is whole.
+//! Streams as files. A picture that comes in is held in memory. A stream of many is read as it comes, or, where its frames are not asked
+//! for in their order, from a temporary folder. A picture that goes out is made in a temporary folder, and passed on when it is whole;
+//! a stream of many, picture by picture.
 
 use std::fs::File;
-use std::io::{Cursor, ErrorKind, IsTerminal, Read, Write, copy, stdin, stdout};
-use std::path::Path;
+use std::io::{self, BufReader, Cursor, ErrorKind, IsTerminal, Read, Write, copy, stdin, stdout};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
 use anyhow::{Context, Result, anyhow};
-use cosmorama_convert::{Files, InMemory, is_video};
+use cosmorama_convert::{Conversion, Files, InMemory, Name, PictureSink, is_video};
 use cosmorama_io::Format;
 use cosmorama_io::pending::{Scratch, Unfinished};
 
@@ -26,12 +28,17 @@ const STREAMS: [&str; 3] = ["y4m", "pam", "pfm"];
 /// Name of standard input where pictures have names.
 const STDIN: &str = "standard input";
 
+/// Name of standard output there.
+const STDOUT: &str = "standard output";
+
 /// Input that has come in through streams.
 #[derive(Default)]
 pub(crate) struct KeptStreams {
     files: InMemory,
     /// Whether standard input is held.
     has_stdin: bool,
+    /// Whether streams of many pictures are read as they come.
+    in_order: bool,
     /// List of temporary files, where streams of many pictures are kept on disk; without it, they are in memory, too.
     unfinished: Option<Unfinished>,
     /// Folders of what is kept on disk.
@@ -44,8 +51,8 @@ const BEGIN: u64 = 16;
 impl KeptStreams {
     /// Returns the name of an input that can be read repeatedly. It is the input's own, or that under which a stream is
     /// held in memory.
-    pub(crate) fn input(&mut self, name: &str) -> Result<String> {
-        if name == STREAM {
+    pub(crate) fn input(&mut self, name: &Name) -> Result<Name> {
+        if **name == *STREAM {
             if self.has_stdin {
                 return Err(usage("- is given twice, but standard input can be read only once; name a file"));
             }
@@ -53,13 +60,13 @@ impl KeptStreams {
                 return Err(usage("standard input is a terminal; pipe a picture into it, or name a file"));
             }
             self.has_stdin = true;
-            return self.keep(&mut stdin().lock(), STDIN);
+            return self.keep(stdin(), &STDIN.into());
         }
         if is_pipe(Path::new(name)) {
-            let mut pipe = told_if_late(name, || File::open(name)).with_context(|| format!("cannot open {name}"))?;
-            return self.keep(&mut pipe, name);
+            let pipe = told_if_late(name, || File::open(name.path())).with_context(|| format!("cannot open {name}"))?;
+            return self.keep(pipe, name);
         }
-        Ok(name.to_owned())
+        Ok(name.clone())
     }
 
     /// Returns a source of inputs that has the bytes of the streams, and all other files from disk.
@@ -68,15 +75,16 @@ impl KeptStreams {
     }
 
     /// Holds the bytes of a stream, and returns the name under which it does.
-    fn keep(&mut self, mut source: &mut dyn Read, name: &str) -> Result<String> {
+    fn keep(&mut self, mut source: impl Read + Send + 'static, name: &Name) -> Result<Name> {
         let unread = || format!("cannot read {name}");
         let mut begin = Vec::new();
         (&mut source).take(BEGIN).read_to_end(&mut begin).with_context(unread)?;
         // Streams of many pictures are known by their names.
         let kind = stream_kind(&begin).filter(|kind| is_video(Path::new(&format!("stream.{kind}"))));
         let mut source = Cursor::new(begin).chain(source);
-        let held = kind.map_or_else(|| name.to_owned(), |kind| format!("{name}.{kind}"));
+        let held = kind.map_or_else(|| name.clone(), |kind| named(name, kind));
         match self.unfinished.as_ref().filter(|_| kind.is_some()) {
+            Some(_) if self.in_order => self.files.insert_live(&held, BufReader::new(source)),
             Some(unfinished) => {
                 let folder = folder(unfinished)?;
                 let path = folder.path().join("stream");
@@ -94,6 +102,13 @@ impl KeptStreams {
         }
         Ok(held)
     }
+}
+
+/// Returns the name of a stream of some kind.
+fn named(name: &Name, kind: &str) -> Name {
+    let mut named = name.path().as_os_str().to_owned();
+    named.push(format!(".{kind}"));
+    named.into()
 }
 
 /// Returns the extension of a stream of raw pictures, by its first bytes; `None` for other files.
@@ -142,7 +157,11 @@ pub(crate) struct Piped {
     pub(crate) args: ConvertArgs,
     /// Source of the bytes of inputs.
     pub(crate) files: Arc<dyn Files>,
-    /// Folder of the output that goes on to standard output.
+    /// Goal of pictures that go to standard output as they are made.
+    pub(crate) sink: Option<PictureSink>,
+    /// Whether nobody reads standard output any more.
+    is_closed: Arc<AtomicBool>,
+    /// Folder of the output that goes on to standard output when it is whole.
     scratch: Option<Scratch>,
     /// Inputs that are streams, kept as long as the conversion lasts.
     _kept: KeptStreams,
@@ -151,24 +170,36 @@ pub(crate) struct Piped {
 impl Piped {
     /// Reads the inputs that are streams, and makes a folder for an output that goes to standard output.
     pub(crate) fn open(mut args: ConvertArgs, console: &mut Console) -> Result<Self> {
-        check(&args, args.output == STREAM)?;
-        let mut kept = KeptStreams { unfinished: Some(console.unfinished.clone()), ..KeptStreams::default() };
+        check(&args, *args.output == *STREAM)?;
+        let (mut sink, mut scratch, is_closed) = (None, None, Arc::default());
+        if let Some(format) = &args.format {
+            let mut path = PathBuf::from(format!("{STDOUT}.{}", format.trim_start_matches('.')));
+            if is_stream(format) {
+                sink = Some(PictureSink::new(StandardOutput { is_closed: Arc::clone(&is_closed) }));
+            } else {
+                path = scratch.insert(folder(&console.unfinished)?).path().join(path);
+            }
+            console.call(&path, STDOUT);
+            args.output = path.into();
+        }
+        let settings: Conversion = args.clone().into();
+        let in_order = settings.reads_in_order();
+        let unfinished = Some(console.unfinished.clone());
+        let mut kept = KeptStreams { in_order, unfinished, ..KeptStreams::default() };
         args.input = kept.input(&args.input)?;
         args.backdrop = args.backdrop.map(|backdrop| kept.input(&backdrop)).transpose()?;
-        let mut scratch = None;
-        if let Some(format) = &args.format {
-            let folder = scratch.insert(folder(&console.unfinished)?);
-            let path = folder.path().join(format!("standard output.{}", format.trim_start_matches('.')));
-            console.call(&path, "standard output");
-            args.output = path.display().to_string();
-        }
-        Ok(Self { args, files: kept.files(), scratch, _kept: kept })
+        Ok(Self { args, files: kept.files(), sink, is_closed, scratch, _kept: kept })
+    }
+
+    /// Returns whether whoever read standard output has closed it, and has seen enough.
+    pub(crate) fn is_closed(&self) -> bool {
+        self.is_closed.load(Ordering::Relaxed)
     }
 
     /// Copies the output to standard output.
     pub(crate) fn finish(self) -> Result<()> {
         if self.scratch.is_some() {
-            let mut file = File::open(&self.args.output).context("nothing was made for standard output")?;
+            let mut file = File::open(self.args.output.path()).context("nothing was made for standard output")?;
             let mut out = stdout().lock();
             match copy(&mut file, &mut out).and_then(|_| out.flush()) {
                 // The reader of our output has closed it, and has seen enough.
@@ -177,6 +208,31 @@ impl Piped {
             }
         }
         Ok(())
+    }
+}
+
+/// Standard output that notes when nobody reads it any more.
+struct StandardOutput {
+    is_closed: Arc<AtomicBool>,
+}
+
+impl StandardOutput {
+    fn noting<T>(&self, done: io::Result<T>) -> io::Result<T> {
+        done.inspect_err(|error| {
+            if error.kind() == ErrorKind::BrokenPipe {
+                self.is_closed.store(true, Ordering::Relaxed);
+            }
+        })
+    }
+}
+
+impl Write for StandardOutput {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.noting(stdout().write(bytes))
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.noting(stdout().flush())
     }
 }
 
@@ -223,9 +279,14 @@ fn check(args: &ConvertArgs, to_stdout: bool) -> Result<()> {
     }
 }
 
+/// Returns whether an extension is that of a stream of raw pictures.
+fn is_stream(extension: &str) -> bool {
+    let extension = extension.trim_start_matches('.');
+    STREAMS.contains(&extension) && is_video(Path::new(&format!("stream.{extension}")))
+}
+
 /// Returns whether a format, given by its extension, can be written.
 fn is_format(extension: &str) -> bool {
     let extension = extension.trim_start_matches('.');
-    let is_stream = STREAMS.contains(&extension) && is_video(Path::new(&format!("stream.{extension}")));
-    is_stream || Format::from_extension(Path::new(&format!("picture.{extension}"))).is_ok()
+    is_stream(extension) || Format::from_extension(Path::new(&format!("picture.{extension}"))).is_ok()
 }

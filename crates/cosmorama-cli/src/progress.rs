@@ -23,7 +23,8 @@ pub(crate) struct Progress {
     noun: &'static str,
     form: Form,
     done: usize,
-    total: usize,
+    /// Number of things to make; `None` while they go on until a stream ends.
+    total: Option<usize>,
     start: Instant,
     /// Time of the last line, or of the start if there is none yet.
     said: Instant,
@@ -50,17 +51,18 @@ struct Advance {
 }
 
 impl Progress {
-    /// Starts the progress of this number of frames.
-    pub(crate) fn new(style: ProgressStyle, total: usize) -> Self {
+    /// Starts the progress of this number of frames; `None` if they go on until a stream ends.
+    pub(crate) fn new(style: ProgressStyle, total: impl Into<Option<usize>>) -> Self {
         Self::of("frame", style, total)
     }
 
     /// Starts the progress of this number of things of a name.
-    pub(crate) fn of(noun: &'static str, style: ProgressStyle, total: usize) -> Self {
+    pub(crate) fn of(noun: &'static str, style: ProgressStyle, total: impl Into<Option<usize>>) -> Self {
+        let total = total.into();
         let form = match style {
             ProgressStyle::Auto if std::io::stderr().is_terminal() => Form::Bar(bar(noun, total)),
             // A single picture needs no running commentary in a log.
-            ProgressStyle::Auto if total <= 1 => Form::Silent,
+            ProgressStyle::Auto if !are_many(total) => Form::Silent,
             ProgressStyle::Auto | ProgressStyle::Plain => Form::Plain,
             ProgressStyle::Bar => Form::Bar(bar(noun, total)),
             ProgressStyle::Json => Form::Json,
@@ -89,7 +91,7 @@ impl Progress {
         let seconds_left = elapsed.as_secs_f64() * (1.0 - fraction) / fraction.max(1e-9);
         let advance = Advance { work, fraction, seconds_left };
         if let Form::Bar(bar) = &self.form {
-            if self.total > 1 {
+            if are_many(self.total) {
                 bar.set_message(if elapsed < SHORT { String::new() } else { format!(" ({advance})") });
             } else if elapsed >= SHORT {
                 bar.set_position((fraction * STEPS as f64) as u64);
@@ -121,38 +123,54 @@ impl Progress {
                 Some(line.to_string())
             }
             // Earlier frames may not be written yet, so that the figure must not fall when they are.
-            (Form::Openjd, Work::Render(_)) => Some(self.openjd(self.done as f64 + fraction)),
+            (Form::Openjd, Work::Render(_)) => {
+                let progress = self.openjd(self.done as f64 + fraction);
+                Some(progress.unwrap_or_else(|| format!("openjd_status: {advance}")))
+            }
             (Form::Openjd, _) => Some(format!("openjd_status: {advance}")),
             (Form::Bar(_) | Form::Silent, _) => None,
         }
     }
 
-    fn openjd(&mut self, frames: f64) -> String {
+    /// Returns the line about the part that is done; `None` while nobody knows of how much it is a part.
+    fn openjd(&mut self, frames: f64) -> Option<String> {
         self.told = self.told.max(frames);
-        format!("openjd_progress: {:.2}", 100.0 * self.told / self.total as f64)
+        Some(format!("openjd_progress: {:.2}", 100.0 * self.told / self.total? as f64))
     }
 
     /// Reports that another frame is written.
     pub(crate) fn frame_done(&mut self, frame: Option<u64>) {
         self.done += 1;
         self.said = Instant::now();
+        let rate = self.done as f64 / self.start.elapsed().as_secs_f64().max(1e-9);
+        match &self.form {
+            Form::Bar(bar) if are_many(self.total) => bar.inc(1),
+            _ => self.done_line(frame, rate).into_iter().for_each(say),
+        }
+    }
+
+    /// Returns the line about a frame that is written, when so many are made a second.
+    fn done_line(&mut self, frame: Option<u64>, rate: f64) -> Option<String> {
         let (done, total) = (self.done, self.total);
-        let rate = done as f64 / self.start.elapsed().as_secs_f64().max(1e-9);
-        let left = (total - done) as f64 / rate;
+        let left = total.map(|total| (total - done) as f64 / rate);
         let number = frame.map_or_else(|| self.noun.to_owned(), |frame| format!("frame {frame}"));
         match &self.form {
-            Form::Bar(bar) if total > 1 => bar.inc(1),
             Form::Plain => {
-                say(format_args!("{number}: {done} of {total} done, {} a second, {left:.0} s left", steady(rate)));
+                let of = total.map_or_else(String::new, |total| format!(" of {total}"));
+                let left = left.map_or_else(String::new, |left| format!(", {left:.0} s left"));
+                Some(format!("{number}: {done}{of} done, {} a second{left}", steady(rate)))
             }
             Form::Json => {
                 let line = serde_json::json!({
                     "frame": frame, "done": done, "total": total, "frames_per_second": rate, "seconds_left": left,
                 });
-                say(line);
+                Some(line.to_string())
             }
-            Form::Openjd => say(self.openjd(done as f64)),
-            Form::Bar(_) | Form::Silent => {}
+            Form::Openjd => {
+                let progress = self.openjd(done as f64);
+                Some(progress.unwrap_or_else(|| format!("openjd_status: {number}: {done} done")))
+            }
+            Form::Bar(_) | Form::Silent => None,
         }
     }
 
@@ -180,16 +198,25 @@ impl std::fmt::Display for Advance {
     }
 }
 
-fn bar(noun: &str, total: usize) -> ProgressBar {
+/// Returns whether there may be more than one.
+fn are_many(total: Option<usize>) -> bool {
+    total.is_none_or(|total| total > 1)
+}
+
+fn bar(noun: &str, total: Option<usize>) -> ProgressBar {
     let (template, length) = match total {
-        0 | 1 => ("{wide_bar} {msg}".to_owned(), STEPS),
-        _ => (format!("{{wide_bar}} {{pos}}/{{len}} {noun}s, {{rate}} a second, {{eta}} left{{msg}}"), total as u64),
+        None => (format!("{{spinner}} {{pos}} {noun}s, {{rate}} a second{{msg}}"), None),
+        Some(0 | 1) => ("{wide_bar} {msg}".to_owned(), Some(STEPS)),
+        Some(total) => {
+            let template = format!("{{wide_bar}} {{pos}}/{{len}} {noun}s, {{rate}} a second, {{eta}} left{{msg}}");
+            (template, Some(total as u64))
+        }
     };
     let style = BarStyle::with_template(&template).unwrap_or_else(|_| BarStyle::default_bar());
     let style = style.with_key("rate", |state: &ProgressState, to: &mut dyn Write| {
         let _ = to.write_str(&steady(state.per_sec()));
     });
-    ProgressBar::new(length).with_style(style)
+    length.map_or_else(ProgressBar::no_length, ProgressBar::new).with_style(style)
 }
 
 /// Returns a rate with three digits, for many frames a second or few.
@@ -231,6 +258,22 @@ mod tests {
             serde_json::from_str(&said(ProgressStyle::Json, 4, Work::Render(Some(7)))[1]).unwrap_or_default();
         assert_eq!((&line["work"], &line["frame"], &line["fraction"]), (&"render".into(), &7.into(), &0.4.into()));
         assert_eq!(said(ProgressStyle::None, 1, Work::Render(None)), [""; 0]);
+    }
+
+    #[test]
+    fn where_no_end_is_known_none_is_told() {
+        let line = |style| {
+            let mut progress = Progress::new(style, None);
+            progress.done = 3;
+            progress.done_line(Some(2), 2.0)
+        };
+        assert_eq!(line(ProgressStyle::Plain).as_deref(), Some("frame 2: 3 done, 2.00 a second"));
+        assert_eq!(line(ProgressStyle::Openjd).as_deref(), Some("openjd_status: frame 2: 3 done"));
+        let line: serde_json::Value = serde_json::from_str(&line(ProgressStyle::Json).unwrap()).unwrap();
+        assert_eq!((&line["done"], &line["total"], &line["seconds_left"]), (&3.into(), &().into(), &().into()));
+        let known = |style| Progress { done: 3, ..Progress::new(style, 4) }.done_line(Some(2), 2.0);
+        assert_eq!(known(ProgressStyle::Plain).as_deref(), Some("frame 2: 3 of 4 done, 2.00 a second, 0 s left"));
+        assert_eq!(known(ProgressStyle::Openjd).as_deref(), Some("openjd_progress: 75.00"));
     }
 
     #[test]

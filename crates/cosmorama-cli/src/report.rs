@@ -1,5 +1,6 @@
 //! Reports on a conversion that is done.
 
+use std::borrow::Cow;
 use std::path::PathBuf;
 
 use anyhow::Result;
@@ -12,8 +13,8 @@ use crate::console::{Console, in_options};
 /// JSON that `--json` prints after a conversion.
 #[derive(Serialize)]
 struct JsonReport<'a> {
-    inputs: &'a [PathBuf],
-    outputs: &'a [PathBuf],
+    inputs: Vec<Cow<'a, str>>,
+    outputs: Vec<Cow<'a, str>>,
     frames: usize,
     skipped: usize,
     remade: Vec<JsonRemade<'a>>,
@@ -31,7 +32,7 @@ struct JsonReport<'a> {
 
 #[derive(Serialize)]
 struct JsonRemade<'a> {
-    output: &'a PathBuf,
+    output: Cow<'a, str>,
     reason: &'a str,
 }
 
@@ -106,11 +107,15 @@ pub(crate) fn light(report: &Report) -> Result<Value> {
 pub(crate) fn to_json(report: &Report) -> Result<String> {
     let CpuSeconds { decode, plan, filter, encode } = report.cpu_seconds;
     let json = JsonReport {
-        inputs: &report.inputs,
-        outputs: &report.outputs,
+        inputs: names(&report.inputs),
+        outputs: names(&report.outputs),
         frames: report.frames,
         skipped: report.skipped,
-        remade: report.remade.iter().map(|Remade { output, reason }| JsonRemade { output, reason }).collect(),
+        remade: report
+            .remade
+            .iter()
+            .map(|Remade { output, reason }| JsonRemade { output: output.to_string_lossy(), reason })
+            .collect(),
         wall_seconds: report.wall.as_secs_f64(),
         cpu_seconds: JsonCpuSeconds { decode, plan, filter, encode },
         peak_memory_bytes: report.peak_memory_bytes,
@@ -121,6 +126,11 @@ pub(crate) fn to_json(report: &Report) -> Result<String> {
         notes: told(report, |severity| severity == Severity::Note),
     };
     Ok(serde_json::to_string_pretty(&json)? + "\n")
+}
+
+/// Returns paths as text: bytes that are none have a sign in their place.
+fn names(paths: &[PathBuf]) -> Vec<Cow<'_, str>> {
+    paths.iter().map(|path| path.to_string_lossy()).collect()
 }
 
 fn told(report: &Report, chosen: impl Fn(Severity) -> bool) -> Vec<String> {

@@ -13,8 +13,8 @@ use cosmorama_convert::{Conversion, Observer, Quiet, Stop};
 struct Watcher;
 
 impl Observer for Watcher {
-    fn begin(&mut self, frames: usize) {
-        println!("{frames} frames");
+    fn begin(&mut self, frames: Option<usize>) {
+        println!("{} frames", frames.unwrap_or_default());
     }
 
     fn frame_done(&mut self, frame: Option<u64>) -> ControlFlow<Stop> {

@@ -38,8 +38,9 @@ pub use settings::{
     LightLevel, LightNormalisation, LightScale, LightSettings, LimitSettings, MotionBlur, NormalSpace, OcioSettings,
     PoseFile,
 };
-pub use source::video::{DamagedFrames, VideoSettings, Videos, is_video};
+pub use source::video::{DamagedFrames, PictureSink, VideoSettings, Videos, is_video};
 pub use source::{
-    Disk, Files, InMemory, MemoryBudget, Stamp, ViewFiles, existing_frames, peak_bytes, probe, read, with_videos,
+    Disk, Files, InMemory, LiveStream, MemoryBudget, Name, Stamp, ViewFiles, existing_frames, peak_bytes, probe, read,
+    with_videos,
 };
 pub use target::{CHAIN_EDGE, Picture, is_cube_of_light};

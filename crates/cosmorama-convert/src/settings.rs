@@ -1,4 +1,4 @@
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use cosmorama::filter::FilterKind;
@@ -10,8 +10,8 @@ use cosmorama_io::pending::Unfinished;
 use cosmorama_io::{CameraPath, Compression, FrameList, Remark};
 use cosmorama_spec::{FilterName, FrameMap, KernelName, MemorySize, Missing, Size, Spec, TimeRanges, TransferName};
 
-use crate::source::video::VideoSettings;
-use crate::source::{Disk, Files};
+use crate::source::video::{PictureSink, VideoSettings};
+use crate::source::{Disk, Files, Name, ViewFiles};
 
 /// Settings of a conversion from an input, in any form, to pictures of another projection.
 ///
@@ -31,9 +31,9 @@ use crate::source::{Disk, Files};
 #[derive(Clone, Debug)]
 pub struct Conversion {
     /// Input: an image, a pattern of faces and frames, a world file, a Hugin project, or `builtin:NAME`.
-    pub input: String,
+    pub input: Name,
     /// Output: an image or a pattern; the extension chooses the format.
-    pub output: String,
+    pub output: Name,
     /// Projections, size, orientation and filter.
     pub geometry: GeometrySettings,
     /// Whether an st map is written instead of a picture.
@@ -80,8 +80,10 @@ pub struct Conversion {
     pub existing: Existing,
     /// Whether folders of outputs that do not exist are made; else they are an error.
     pub make_folders: bool,
-    /// Whether the output goes to a stream, which holds one picture.
+    /// Whether the output goes to a stream, which holds one picture, or the frames of a stream of raw pictures.
     pub to_stream: bool,
+    /// Goal of an output that is a stream of raw pictures, to which they are passed on as they are made. Without it they become a file.
+    pub sink: Option<PictureSink>,
     /// Whether mip levels are written, in formats that hold them.
     pub mips: bool,
     /// JPEG quality from 1 to 100; that of [`cosmorama_io::WriteOptions`], unless given.
@@ -167,7 +169,7 @@ pub struct PoseFile {
 #[derive(Clone, Debug)]
 pub struct Backdrop {
     /// Files in any form of an input, or `builtin:NAME`.
-    pub input: String,
+    pub input: Name,
     /// Its projection; detected from metadata, names or shape, unless given.
     pub from: Option<Spec>,
     /// Its frame for each frame of the output.
@@ -182,7 +184,7 @@ pub struct Backdrop {
 
 impl Backdrop {
     /// Returns a backdrop that stands still, in frames of its own numbers, with nothing behind it.
-    pub fn new(input: impl Into<String>) -> Self {
+    pub fn new(input: impl Into<Name>) -> Self {
         Self { input: input.into(), from: None, frames: FrameMap::default(), in_path: None, opacity: 1.0, behind: None }
     }
 }
@@ -397,8 +399,8 @@ impl Default for GeometrySettings {
 impl Default for Conversion {
     fn default() -> Self {
         Self {
-            input: String::new(),
-            output: String::new(),
+            input: Name::default(),
+            output: Name::default(),
             geometry: GeometrySettings::default(),
             st_map: false,
             light: None,
@@ -423,6 +425,7 @@ impl Default for Conversion {
             existing: Existing::default(),
             make_folders: true,
             to_stream: false,
+            sink: None,
             mips: false,
             quality: None,
             compression: None,
@@ -437,8 +440,23 @@ impl Default for Conversion {
 
 impl Conversion {
     /// Creates default settings for a conversion from an input to an output.
-    pub fn new(input: impl Into<String>, output: impl Into<String>) -> Self {
+    pub fn new(input: impl Into<Name>, output: impl Into<Name>) -> Self {
         Self { input: input.into(), output: output.into(), ..Self::default() }
+    }
+
+    /// Returns whether frames of the input are asked for in order, each once, so that a stream can be read as it comes. Where its end must
+    /// be known before, as for a camera that turns over all frames, or a frame be found again, it must be kept.
+    pub fn reads_in_order(&self) -> bool {
+        let takes_frames = || ViewFiles::new(Path::new(&self.output)).has_frames();
+        let is_forward = |list: &FrameList| list.frames().windows(2).all(|pair| pair[0] < pair[1]);
+        self.light.is_none()
+            && !self.st_map
+            && self.geometry.camera.is_none()
+            && self.geometry.in_path.is_none()
+            && self.backdrop.is_none()
+            && self.times.is_none()
+            && self.existing != Existing::Resume
+            && self.frames.as_ref().map_or_else(takes_frames, is_forward)
     }
 
     /// Sets the input's projection.

@@ -1,11 +1,13 @@
 use std::path::PathBuf;
 
 use clap::{ArgGroup, Args, ValueHint};
+use cosmorama_convert::Name;
 use cosmorama_io::FrameList;
 use cosmorama_spec::Size;
 
 use super::convert::{CameraArgs, GeometryArgs, LimitArgs, ShutterArgs, frame_list};
 use super::{SEE_MORE, projections, with_examples};
+use crate::parse::file;
 use crate::parse::number::{not_negative, positive};
 
 /// Example commands in its help.
@@ -23,8 +25,8 @@ pub(super) const EXAMPLES: [&str; 4] = [
 #[command(group(ArgGroup::new("folders").args(["output", "template"]).multiple(true)))]
 pub(crate) struct ExplainArgs {
     /// The input, if there is one: an image or a pattern; - is standard input
-    #[arg(value_hint = ValueHint::FilePath)]
-    pub(crate) input: Option<String>,
+    #[arg(value_hint = ValueHint::FilePath, value_parser = file::name())]
+    pub(crate) input: Option<Name>,
     /// Size of an input, or of its faces, that does not exist yet
     ///
     /// Unless given, it is parity with the output at the centre.

@@ -1,13 +1,13 @@
 use std::path::PathBuf;
 
-use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueHint};
-use cosmorama_convert::{Conversion, GeometrySettings};
+use cosmorama_convert::{Conversion, GeometrySettings, Name};
 use cosmorama_io::FrameList;
 use cosmorama_spec::{FilterName, KernelName, Size, Spec, TransferName};
 
 use super::convert::{LimitArgs, TurnArgs, frame_list};
 use super::{ProgressStyle, SEE_MORE, projections, with_examples};
+use crate::parse::file;
 use crate::parse::listed;
 
 /// Example commands in its help.
@@ -32,8 +32,8 @@ const LEAST: usize = 16;
 #[command(after_help = SEE_MORE, after_long_help = projections())]
 pub(crate) struct FiltersArgs {
     /// An image or a pattern, as convert takes it
-    #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
-    pub(crate) input: String,
+    #[arg(value_hint = ValueHint::FilePath, value_parser = file::name())]
+    pub(crate) input: Name,
     /// The input's projection [default: found]
     #[arg(long, value_name = "SPEC", value_parser = listed::spec(), hide_possible_values = true, help_heading = "Geometry")]
     pub(crate) from: Option<Spec>,

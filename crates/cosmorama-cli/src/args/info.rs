@@ -1,6 +1,8 @@
 use clap::{Args, ValueHint};
+use cosmorama_convert::Name;
 
 use super::with_examples;
+use crate::parse::file;
 
 /// Example commands in its help.
 pub(super) const EXAMPLES: [&str; 3] = [
@@ -17,8 +19,8 @@ pub(crate) struct InfoArgs {
     ///
     /// A pattern has {face} or %c where faces' names stand, and ####, @@@@ or %04d where frame numbers do. A world file (.toml)
     /// or a Hugin project (.pto) is read, too.
-    #[arg(value_hint = ValueHint::FilePath)]
-    pub(crate) input: String,
+    #[arg(value_hint = ValueHint::FilePath, value_parser = file::name())]
+    pub(crate) input: Name,
     /// Decode every frame of a pattern and every picture of a world, to find damaged ones
     ///
     /// Without it, a single picture is decoded, if that takes up to 1 GiB. Of others headers alone may be read, which the report says.

@@ -1,22 +1,24 @@
 use std::path::PathBuf;
 
-use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueHint};
+use cosmorama_convert::Name;
 use cosmorama_io::FrameList;
 use cosmorama_spec::Size;
 
 use super::convert::{LimitArgs, frame_list};
 use super::{ProgressStyle, with_examples};
+use crate::parse::file;
 use crate::parse::number::every;
 
 /// Example commands in its help.
-pub(super) const EXAMPLES: [&str; 3] = [
+pub(super) const EXAMPLES: [&str; 4] = [
     "cosmorama verify 'dome_####.png'",
     "cosmorama verify 'dome_####.png' --frames 1-50000 --size 4096 --json",
     "cosmorama verify 'dome_####.exr' --sheet sheet.png --every 100",
+    "cosmorama verify film.mp4",
 ];
 
-/// Find frames of a sequence that are missing, damaged, unlike the others, black or frozen.
+/// Find frames of a sequence or a video that are missing, damaged, unlike the others, black or frozen.
 ///
 /// Every frame is read to its end. Told are frames without a file, files that are no whole picture, pictures of another size, of other
 /// channels or another depth, those made by other settings, black ones, those that equal the frame before, and flashes: single frames far from both neighbours.
@@ -25,9 +27,9 @@ pub(super) const EXAMPLES: [&str; 3] = [
 #[derive(Debug, Args)]
 #[command(help_template = with_examples(&EXAMPLES))]
 pub(crate) struct VerifyArgs {
-    /// Names of the frames, with ####, @@@@ or %04d where their numbers stand
-    #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
-    pub(crate) pattern: String,
+    /// Names of the frames, with ####, @@@@ or %04d where their numbers stand, or a video
+    #[arg(value_hint = ValueHint::FilePath, value_parser = file::name())]
+    pub(crate) pattern: Name,
     /// Frames that there should be: 1-10 or 1-3,5,7-20:2 [default: first to last]
     #[arg(long, value_name = "LIST", value_parser = frame_list, allow_hyphen_values = true)]
     pub(crate) frames: Option<FrameList>,

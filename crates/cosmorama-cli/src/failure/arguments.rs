@@ -84,7 +84,7 @@ fn message(error: &Error, typed: &Typed) -> String {
         ErrorKind::ValueValidation => value(error, typed).unwrap_or_else(|| in_claps_words(error, typed)),
         ErrorKind::InvalidValue => choice(error).unwrap_or_else(|| in_claps_words(error, typed)),
         ErrorKind::InvalidUtf8 => format!(
-            "'{}' is no text in UTF-8, as names of inputs and outputs must be; rename it, or make a link to it with a plain \
+            "'{}' is no text in UTF-8, as this value must be; where it names a file, rename it, or make a link to it with a plain \
              name\n\n{}",
             typed.no_text().unwrap_or_default(),
             see_options(typed.verb())

@@ -23,11 +23,9 @@ const NOT_MEASURABLE: &str =
 pub(super) fn run(args: &CompareArgs, console: &mut Console) -> Result<ExitCode> {
     let (mut kept, mut args) = (KeptStreams::default(), args.clone());
     for picture in [&mut args.first, &mut args.second] {
-        // A name that is not UTF-8 cannot stand for a stream or for many files.
-        if let Some(name) = picture.to_str() {
-            check_one(name)?;
-            *picture = kept.input(name)?.into();
-        }
+        // A name that is not UTF-8 cannot stand for many files.
+        picture.to_str().map_or(Ok(()), check_one)?;
+        *picture = kept.input(&picture.as_path().into())?.path().to_owned();
     }
     let (args, files) = (&args, &*kept.files());
     let format = args.diff.as_deref().map(|diff| diff_format(diff, args)).transpose()?;

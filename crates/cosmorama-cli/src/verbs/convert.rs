@@ -21,8 +21,11 @@ pub(super) fn run(args: ConvertArgs, console: &mut Console) -> Result<ExitCode> 
     }
     let (progress, as_json) = (args.run.progress, args.run.json);
     let piped = Piped::open(args, console)?;
-    let conversion: Conversion = piped.args.clone().into();
-    let report = convert(conversion.files(Arc::clone(&piped.files)), progress, console)?;
+    let conversion = Conversion { sink: piped.sink.clone(), ..piped.args.clone().into() };
+    let report = match convert(conversion.files(Arc::clone(&piped.files)), progress, console) {
+        Err(_) if piped.is_closed() => return Ok(ExitCode::SUCCESS),
+        made => made?,
+    };
     piped.finish()?;
     if as_json {
         console.print(&report::to_json(&report)?)?;
@@ -62,7 +65,7 @@ impl<'a> Watch<'a> {
 }
 
 impl Observer for Watch<'_> {
-    fn begin(&mut self, frames: usize) {
+    fn begin(&mut self, frames: Option<usize>) {
         self.progress = Some(Progress::new(self.style, frames));
     }
 

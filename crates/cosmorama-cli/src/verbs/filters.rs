@@ -115,7 +115,7 @@ fn csv_text(trials: &[FilterTrial]) -> String {
 
 fn json_text(args: &FiltersArgs, report: &FilterReport, crops: Option<&Path>) -> Result<String> {
     let report = json!({
-        "input": args.input,
+        "input": &*args.input,
         "kernel": args.kernel.to_string(),
         "filters": report.trials.iter().map(trial_json).collect::<Vec<_>>(),
         "crops": crops.map(|file| file.display().to_string()),

@@ -1,5 +1,6 @@
 use std::path::Path;
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use anyhow::Result;
 use cosmorama_convert::{Disk, Fault, SheetLayout, Verification, Verified, check_sheet};
@@ -26,7 +27,7 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Result<ExitCode> {
         sheet: args.sheet.as_ref().map(|_| SheetLayout { every: args.every }),
     };
     let mut watch = Watch::new(console, args.progress);
-    let verified = verification.run(&Disk, &mut watch)?;
+    let verified = verification.run(Arc::new(Disk), &mut watch)?;
     watch.finish();
     let text =
         if args.json { serde_json::to_string_pretty(&json_of(args, &verified))? + "\n" } else { text_of(&verified) };
@@ -99,7 +100,7 @@ fn json_of(args: &VerifyArgs, verified: &Verified) -> Value {
     };
     let faults = verified.faults.iter().flat_map(|of| of.faults.iter().map(|one| fault(of.frame, one)));
     json!({
-        "pattern": args.pattern,
+        "pattern": &*args.pattern,
         "frames": verified.frames,
         "whole": verified.frames - verified.faults.len(),
         "faults": faults.collect::<Vec<_>>(),

@@ -32,6 +32,8 @@ mod input {
     mod bad_input;
     mod builtin;
     mod detection;
+    #[cfg(feature = "video")]
+    mod live;
     mod pipes;
     mod real_data;
     mod st_maps;
@@ -93,6 +95,7 @@ mod usage {
     mod logs;
     mod messages;
     mod mistakes;
+    mod names;
     mod verbs;
     mod wrong_usage;
 }

@@ -111,7 +111,7 @@ fn with_frames_at_times(settings: Conversion) -> Result<Conversion> {
         return refused("is no video, whose frames have times");
     };
     is_one_file(&*files, input, video)?;
-    let count = videos.count(video)?;
+    let Some(count) = videos.count(video)? else { return refused("is a stream whose end is not known") };
     let (frames, rate) = match (videos.rate(video)?, videos.begins(video)?) {
         (Some(rate), _) => (FrameList::new(times.frames(rate, count)), format!("at {rate} a second")),
         (None, Some(begins)) => (FrameList::new(times.frames_among(&begins)), "at a rate that varies".to_owned()),

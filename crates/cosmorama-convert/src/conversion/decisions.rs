@@ -210,7 +210,8 @@ impl Checked {
 
     fn of_frames(&self) -> Decision {
         let outputs = &self.job.outputs;
-        let mut message = format!("{} to make", counted(outputs.frames.len(), "frame"));
+        let count = outputs.count().map(|count| format!("{} to make", counted(count, "frame")));
+        let mut message = count.unwrap_or_else(|| "a frame to make for each that comes".to_owned());
         if outputs.skipped > 0 {
             message += &format!(", {} kept, because they are whole and made alike", counted(outputs.skipped, "output"));
         }
@@ -219,7 +220,8 @@ impl Checked {
                 &format!(", {} made anew, because something else is there", counted(outputs.remade.len(), "output"));
         }
         let Space { all, free, .. } = Space::of(&self.job, self.settings.compression);
-        message += &format!("; about {} of disk", human(all));
+        let each = if outputs.go_on { " a frame" } else { "" };
+        message += &format!("; about {}{each} of disk", human(all));
         message += &free.map_or_else(String::new, |free| format!(", of which {} are free", human(free)));
         Decision::new(Topic::Frames, message)
     }

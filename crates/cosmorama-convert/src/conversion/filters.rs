@@ -104,7 +104,7 @@ impl Conversion {
 fn target(settings: &Conversion, memory: MemoryBudget, parity: f64) -> Result<View> {
     let files = ChosenFiles::new(Arc::clone(&settings.files), Choice::default(), settings.video.damaged);
     let access = Access { files: &files, memory, decoded: &DecodedPicture::default() };
-    let geometry = settled(&settings.geometry, Some(settings.input.as_str()), access, &mut Vec::new())?;
+    let geometry = settled(&settings.geometry, Some(&settings.input), access, &mut Vec::new())?;
     match &Picture::all(&geometry, None, Some(parity))?[..] {
         [picture] => Ok(picture.view.clone()),
         several => Err(usage(format!(
@@ -131,7 +131,7 @@ impl FilterTrials {
         truth: Option<&Path>,
         observer: &mut dyn Observer,
     ) -> Result<FilterReport> {
-        observer.begin(1);
+        observer.begin(Some(1));
         let Radiance { world, light, primaries, diagnostics, .. } = self.input.radiance()?;
         let laboratory = Laboratory::bytes(&world, &self.view) as u64;
         let pixels = format!("; the picture has {}x{} pixels", self.view.width(), self.view.height());
@@ -274,7 +274,7 @@ impl References<'_> {
 }
 
 /// Error of work that the observer stopped.
-const STOPPED: ConvertError = ConvertError::Stopped { done: 0, frames: 1 };
+const STOPPED: ConvertError = ConvertError::Stopped { done: 0, frames: Some(1) };
 
 fn stopped(_: Stopped) -> ConvertError {
     STOPPED

@@ -20,8 +20,8 @@ pub enum Work {
 
 /// Callbacks of a running conversion, all on the thread that runs it.
 pub trait Observer {
-    /// Receives the number of frames to make, before the first.
-    fn begin(&mut self, _frames: usize) {}
+    /// Receives the number of frames to make, before the first; `None` if they go on until a stream ends.
+    fn begin(&mut self, _frames: Option<usize>) {}
 
     /// Receives a diagnostic.
     fn diagnostic(&mut self, _diagnostic: &Diagnostic) {}

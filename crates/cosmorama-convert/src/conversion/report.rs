@@ -36,18 +36,25 @@ pub struct Report {
     pub diagnostics: Vec<Diagnostic>,
 }
 
+/// Frames beyond those that were known at the beginning, with their files.
+#[derive(Debug, Default)]
+pub(crate) struct Further {
+    pub(super) frames: usize,
+    pub(super) files: Vec<PathBuf>,
+}
+
 impl Report {
     pub(crate) fn new(
         inputs: BTreeSet<PathBuf>,
-        outputs: &Outputs,
+        (outputs, further): (&Outputs, Further),
         wall: Duration,
         stages: &Stages,
         diagnostics: Vec<Diagnostic>,
     ) -> Self {
         Self {
             inputs: inputs.into_iter().collect(),
-            outputs: outputs.paths().map(Path::to_owned).collect(),
-            frames: outputs.frames.len(),
+            outputs: outputs.paths().map(Path::to_owned).chain(further.files).collect(),
+            frames: outputs.frames.len() + further.frames,
             skipped: outputs.skipped,
             remade: outputs.remade.clone(),
             wall,

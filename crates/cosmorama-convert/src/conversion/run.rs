@@ -9,6 +9,7 @@ use cosmorama_spec::Spec;
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
+use super::report::Further;
 use super::{Checked, Observer, Report, Stop, Work, decisions, videos, watched};
 use crate::diagnostic::{Code, ConvertError, DEPTH, Diagnostic, Result, SCALE};
 use crate::engine::unfiltered::{OutputFile, formula, st_map};
@@ -27,14 +28,14 @@ impl Checked {
     /// # Errors
     /// When a file cannot be read or written, its content contradicts its header, or the observer stops the run.
     pub fn run(mut self, observer: &mut dyn Observer) -> Result<Report> {
-        observer.begin(self.job.outputs.frames.len());
+        observer.begin(self.job.outputs.count());
         self.decisions().iter().for_each(|decision| observer.decided(decision));
-        let (mut lit, mut interpolated) = (Vec::new(), Vec::new());
+        let (mut lit, mut interpolated, mut further) = (Vec::new(), Vec::new(), Further::default());
         let options = self.writer_options(observer)?;
         let videos = Arc::clone(&options.videos);
         let mut estimated = self.job.estimated_bytes(self.pool.current_num_threads());
         match self.content {
-            Content::World => (lit, interpolated, estimated) = self.convert(observer, options)?,
+            Content::World => (lit, interpolated, estimated, further) = self.convert(observer, options)?,
             Content::StMap => self.each_file(observer, st_map::make)?,
             Content::Formula(world) => {
                 self.each_file(observer, |output| formula::picture(output, world, &options))?;
@@ -52,7 +53,7 @@ impl Checked {
         } else {
             BTreeSet::from([PathBuf::from(&settings.input)])
         };
-        let report = Report::new(inputs, &job.outputs, start.elapsed(), &stages, diagnostics);
+        let report = Report::new(inputs, (&job.outputs, further), start.elapsed(), &stages, diagnostics);
         Ok(Report { light: lit, interpolated, estimated_memory_bytes: estimated, ..report })
     }
 
@@ -81,7 +82,7 @@ impl Checked {
                 make(&OutputFile { job, place: done - 1, views, exposure, stages, unfinished, index: *index, path })
             };
             pool.install(|| files.iter().try_for_each(make))?;
-            tell_done(observer, *frame, (done, frames.len()))?;
+            tell_done(observer, *frame, (done, Some(frames.len())))?;
         }
         Ok(())
     }
@@ -91,16 +92,28 @@ impl Checked {
         let Self { settings, job, pool, stages, diagnostics, .. } = self;
         let prepare = |progress: &dyn Progress| stages.alone(Stage::Plan, || Engine::new(job, options, progress));
         let engine = watched(pool, observer, Work::Plan, prepare).and_then(Result::ok);
-        let Some(engine) = &engine else { return Err(stopped((0, job.outputs.frames.len()))) };
+        let Some(engine) = &engine else { return Err(stopped((0, job.outputs.count()))) };
         let from = settings.geometry.from.as_ref();
         let tally = warnings::Tally::default();
-        let mut run = Run { job, engine, stages, pool, observer, diagnostics, from, tally, is_first: true, done: 0 };
+        let mut run = Run {
+            job,
+            engine,
+            stages,
+            pool,
+            observer,
+            diagnostics,
+            from,
+            tally,
+            is_first: true,
+            done: 0,
+            files: Vec::new(),
+        };
         run.tell(engine.told());
         engine.decisions().iter().for_each(|decision| run.observer.decided(decision));
         let estimated = pool.install(|| engine.estimated_bytes());
         let made = match &job.outputs.frames[..] {
             [] => Ok(Vec::new()),
-            [frame] => run.still(frame).map(|()| Vec::new()),
+            [frame] if !job.outputs.go_on => run.still(frame).map(|()| Vec::new()),
             _ => {
                 let sequence = Sequence { job, engine, stages, pool };
                 stages.among(Stage::Filter, || sequence.run(&mut run))
@@ -110,7 +123,7 @@ impl Checked {
         told.extend(run.tally.warnings(job));
         told.extend(engine.tallied_behind());
         // Maps of light are measured by frame.
-        let output = settings.output.as_str();
+        let output = &*settings.output;
         if job.lighting.is_none() {
             told.extend(too_bright((job, output), (None, 0), engine.writer().overflowed()));
         }
@@ -122,7 +135,8 @@ impl Checked {
         let told =
             lit.iter().filter_map(|report| too_bright((job, output), (report.frame, report.level), report.overflowed));
         run.tell(told.chain(lit.first().and_then(|report| fitted(job, output, report.scale))).collect());
-        Ok((lit, interpolated, estimated))
+        let further = Further { frames: run.done.saturating_sub(job.outputs.frames.len()), files: run.files };
+        Ok((lit, interpolated, estimated, further))
     }
 }
 
@@ -132,8 +146,9 @@ fn damaged_frames(job: &ConvertJob) -> Vec<Diagnostic> {
     complaints.map(|message| Diagnostic::warning(Code::DamagedFrames, message)).collect()
 }
 
-/// Figures of maps of light, differences of interpolated ones, and the memory that was expected to be needed.
-type Converted = (Vec<LightReport>, Vec<InterpolationReport>, u64);
+/// Figures of maps of light, differences of interpolated ones, the memory that was expected to be needed, and frames of a stream after
+/// its first.
+type Converted = (Vec<LightReport>, Vec<InterpolationReport>, u64, Further);
 
 /// Returns the warning about light that was scaled to fit the output's sample type.
 fn fitted(job: &ConvertJob, output: &str, scale: f64) -> Option<Diagnostic> {
@@ -191,6 +206,8 @@ struct Run<'a> {
     is_first: bool,
     /// Number of frames written so far.
     done: usize,
+    /// Files of frames that were not known at the beginning.
+    files: Vec<PathBuf>,
 }
 
 impl Run<'_> {
@@ -235,8 +252,12 @@ impl Watcher for Run<'_> {
 
     fn done(&mut self, frame: &FrameOutputs) -> Result<()> {
         self.done += 1;
+        // A video is one file of all frames, and named already.
+        if self.done > self.job.outputs.frames.len() && !self.job.target.format.is_video() {
+            self.files.extend(frame.files.iter().map(|(_, path)| path.clone()));
+        }
         decisions::of_done(self.job, frame).iter().for_each(|decision| self.observer.decided(decision));
-        tell_done(self.observer, frame.frame, (self.done, self.job.outputs.frames.len()))
+        tell_done(self.observer, frame.frame, (self.done, self.job.outputs.count()))
     }
 }
 
@@ -247,19 +268,19 @@ impl Run<'_> {
     }
 
     fn stopped(&self) -> ConvertError {
-        stopped((self.done, self.job.outputs.frames.len()))
+        stopped((self.done, self.job.outputs.count()))
     }
 }
 
 /// Creates the error of a stop, when `done` of all `frames` are written.
-fn stopped((done, frames): (usize, usize)) -> ConvertError {
+fn stopped((done, frames): (usize, Option<usize>)) -> ConvertError {
     ConvertError::Stopped { done, frames }
 }
 
 /// Calls an observer after a frame, when `done` of all `frames` are written. Returns an error if it stops the run early.
-fn tell_done(observer: &mut dyn Observer, frame: Option<u64>, (done, frames): (usize, usize)) -> Result<()> {
+fn tell_done(observer: &mut dyn Observer, frame: Option<u64>, (done, frames): (usize, Option<usize>)) -> Result<()> {
     match observer.frame_done(frame) {
-        ControlFlow::Break(Stop) if done < frames => Err(stopped((done, frames))),
+        ControlFlow::Break(Stop) if frames.is_none_or(|frames| done < frames) => Err(stopped((done, frames))),
         _ => Ok(()),
     }
 }

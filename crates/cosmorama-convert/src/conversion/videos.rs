@@ -17,7 +17,7 @@ pub(super) fn check(settings: &Conversion, job: &ConvertJob) -> Result<()> {
 /// Starts the encoders of the videos that are made.
 pub(super) fn start(settings: &Conversion, job: &ConvertJob, told: &mut Vec<Diagnostic>) -> Result<MadeVideos> {
     let (plan, videos) = (plan(settings, job), job.files.videos());
-    MadeVideos::start(&outputs(job), (&plan, videos), &settings.unfinished, told)
+    MadeVideos::start(&outputs(job), (&plan, videos), (settings.sink.as_ref(), &settings.unfinished), told)
 }
 
 /// Returns the videos to make, with their sizes.
@@ -30,7 +30,8 @@ fn outputs(job: &ConvertJob) -> Vec<(PathBuf, (usize, usize))> {
 }
 
 fn plan(settings: &Conversion, job: &ConvertJob) -> VideoPlan {
-    let frames: Vec<u64> = job.outputs.frames.iter().filter_map(|frame| frame.frame).collect();
+    let (count, frames): (_, Vec<u64>) =
+        (job.outputs.count(), job.outputs.frames.iter().filter_map(|frame| frame.frame).collect());
     let video = job.input.present().find_map(|(view, ..)| view.files.video());
     VideoPlan {
         settings: settings.video.clone(),
@@ -39,7 +40,7 @@ fn plan(settings: &Conversion, job: &ConvertJob) -> VideoPlan {
         channels: job.light.channels,
         transfer: job.light.transfer.clone(),
         primaries: job.light.working.primaries,
-        frames: job.outputs.frames.len() as u64,
+        frames: count.map(|count| count as u64),
         source: video.map(|video| VideoSource { video: video.to_owned(), frames }),
     }
 }

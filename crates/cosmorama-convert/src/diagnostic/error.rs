@@ -46,13 +46,14 @@ pub enum ConvertError {
     Spec(#[from] SpecError),
     /// An observer stopped the conversion early.
     #[error(
-        "stopped after {done} of {frames} frames, as was asked for; their files are whole, and to resume makes the others"
+        "stopped after {}, as was asked for; their files are whole, and to resume makes the others",
+        frames.map_or_else(|| format!("{done} frames of a stream"), |frames| format!("{done} of {frames} frames"))
     )]
     Stopped {
         /// Frames that were reported as written.
         done: usize,
-        /// Frames that were planned.
-        frames: usize,
+        /// Frames that were planned; `None` while the end of a stream was not known.
+        frames: Option<usize>,
     },
     /// An error with its place: a line of a file, or a frame.
     #[error("{place}")]

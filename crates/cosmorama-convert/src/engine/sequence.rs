@@ -4,8 +4,10 @@
 //! one thread pool, so that codecs and the filter share the cores. Pool threads never block on a queue; only the scheduling
 //! thread does. Both queues are bounded, and keep the frames' order.
 
+use std::borrow::Cow;
 use std::collections::VecDeque;
-use std::path::Path;
+use std::iter::Peekable;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
@@ -17,7 +19,8 @@ use crate::diagnostic::{InPlace, Result, bail};
 use crate::engine::frame::files::named;
 use crate::engine::lighting::between::{Between, InterpolationReport};
 use crate::engine::{Engine, FrameFile, FrameLight, FrameWords, Levels, Spent, Stage, Stages, ViewImage, Which};
-use crate::job::{ConvertJob, FrameOutputs, QueueDepth};
+use crate::job::{ConvertJob, FrameOutputs, Outputs, QueueDepth};
+use crate::source::video::{Coming, FrameName};
 
 /// The frames of a job while they are made.
 pub(crate) struct Sequence<'a> {
@@ -49,9 +52,12 @@ type FileImages = Option<Vec<ViewImage>>;
 /// that are written have their outputs and a result for each file.
 #[derive(Default)]
 struct Queues<'a> {
-    read: VecDeque<(usize, &'a FrameOutputs, Results<FileImages>)>,
-    written: VecDeque<(&'a FrameOutputs, Results<()>)>,
+    read: VecDeque<(usize, Cow<'a, FrameOutputs>, Results<FileImages>)>,
+    written: VecDeque<(Cow<'a, FrameOutputs>, Results<()>)>,
 }
+
+/// Frames that are still to be read, each with its place among all, from 1.
+type Upcoming<'a> = Peekable<Box<dyn Iterator<Item = (usize, Cow<'a, FrameOutputs>)> + 'a>>;
 
 impl<'a> Sequence<'a> {
     /// Makes all frames. The first error ends the run: frames before it, and those in progress, are finished, and no
@@ -83,12 +89,13 @@ impl<'a> Sequence<'a> {
         let mut light = self.engine.frame_light();
         let frames = &self.job.outputs.frames;
         let mut between = Between::new(frames, self.job.lighting.as_ref().and_then(|light| light.every));
-        let mut upcoming = between.computed().into_iter().map(|place| (place, &frames[place - 1]));
+        let mut upcoming = self.upcoming(&between);
         let mut which = Which::All;
         loop {
-            while queues.read.len() < read {
+            while queues.read.len() < read && self.is_next_here(&mut upcoming, queues, watcher)? {
                 let Some((place, frame)) = upcoming.next() else { break };
-                queues.read.push_back((place, frame, self.have_read((scope, failure, place), frame, which)));
+                let results = self.have_read((scope, failure, place), &frame, which);
+                queues.read.push_back((place, frame, results));
                 which = Which::Moving;
             }
             let Some((place, frame, results)) = queues.read.pop_front() else { return Ok(between.reports()) };
@@ -102,7 +109,7 @@ impl<'a> Sequence<'a> {
                 failure.note(place);
                 error
             };
-            let images = all_of(results).at(|| named(frame))?;
+            let images = all_of(results).at(|| named(&frame))?;
             let Some(images) = images.into_iter().collect::<Option<Vec<_>>>() else {
                 self.engine.writer().leave_out(place - 1)?;
                 continue;
@@ -111,27 +118,64 @@ impl<'a> Sequence<'a> {
             let memory = self.engine.pool();
             let read = (&mut images[..], Spent::Kept);
             let filled = self.pool.install(|| light.fill(self.job, frame.frame, read, (self.stages, memory)));
-            filled.at(|| named(frame)).map_err(failed)?;
+            filled.at(|| named(&frame)).map_err(failed)?;
             images.into_iter().for_each(|image| memory.give(image.image.into_samples()));
-            watcher.look(frame, &light);
+            watcher.look(&frame, &light);
             queues.finish_written(written - 1, watcher)?;
             if failure.is_before(place) {
                 return Ok(between.reports());
             }
-            let made = watcher.render(frame, &light);
-            let pictures = made.at(|| named(frame)).map_err(failed)?;
+            let made = watcher.render(&frame, &light);
+            let pictures = made.at(|| named(&frame)).map_err(failed)?;
             if !between.is_key(place) {
                 between.compare(place, &pictures);
                 continue;
             }
-            let interpolated = between.up_to(place, &pictures);
-            for (place, pictures) in interpolated.into_iter().chain([(place, pictures)]) {
+            let interpolated = between.up_to(place, &pictures).into_iter();
+            let interpolated = interpolated.map(|(place, maps)| (place, Cow::Borrowed(&frames[place - 1]), maps));
+            for (place, frame, pictures) in interpolated.chain([(place, frame, pictures)]) {
                 queues.finish_written(written - 1, watcher)?;
-                let frame = &frames[place - 1];
-                let being_written = self.have_written((scope, failure, place), frame, (pictures, &light))?;
+                let being_written = self.have_written((scope, failure, place), &frame, (pictures, &light))?;
                 queues.written.push_back((frame, being_written));
             }
         }
+    }
+
+    /// Returns the frames that are computed, in their order. Those of a stream go on until it ends.
+    fn upcoming(&self, between: &Between<'a>) -> Upcoming<'a> {
+        let (job, outputs) = (self.job, &self.job.outputs);
+        let known = between.computed().into_iter().map(|place| (place, Cow::Borrowed(&outputs.frames[place - 1])));
+        let last = outputs.frames.last().and_then(|frame| frame.frame).filter(|_| outputs.go_on);
+        let further = last.into_iter().flat_map(|last| last + 1..=u64::MAX);
+        let further = further.map(|number| Cow::Owned(Outputs::of_frame(Some(number), &job.target)));
+        let all: Box<dyn Iterator<Item = _> + 'a> = Box::new(known.chain((outputs.frames.len() + 1..).zip(further)));
+        all.peekable()
+    }
+
+    /// Returns whether the next frame can be read. A stream is waited for if there is nothing else to do, and all that is made is told
+    /// of before. It is this thread that waits, so that threads of the pool stay free for the frames before.
+    fn is_next_here(
+        &self,
+        upcoming: &mut Upcoming<'a>,
+        queues: &mut Queues<'a>,
+        watcher: &mut dyn Watcher,
+    ) -> Result<bool> {
+        let Some((_, frame)) = upcoming.peek() else { return Ok(false) };
+        let mut coming = self.coming(frame, false)?;
+        if coming == Coming::Later && queues.read.is_empty() {
+            queues.finish_written(0, watcher)?;
+            coming = self.coming(frame, true)?;
+        }
+        // Reading a frame that was asked for, and never comes, tells what is wrong.
+        Ok(coming == Coming::Here || coming == Coming::Never && !self.job.outputs.go_on)
+    }
+
+    /// Tells whether a frame can be read at once.
+    fn coming(&self, frame: &FrameOutputs, may_wait: bool) -> Result<Coming> {
+        let (Some(videos), Some(number)) = (self.job.files.videos(), frame.frame) else { return Ok(Coming::Here) };
+        let mut shown = self.job.input.present().filter_map(|(view, ..)| view.files.video());
+        let Some(video) = shown.find(|video| self.job.files.live(video).is_some()) else { return Ok(Coming::Here) };
+        Ok(videos.coming(&FrameName { video: video.to_owned(), frame: number }, may_wait)?)
     }
 
     /// Starts reading the files of a frame.
@@ -157,7 +201,7 @@ impl<'a> Sequence<'a> {
     fn have_written<'s>(
         &self,
         turn: Turn<'_, 's>,
-        frame: &'a FrameOutputs,
+        frame: &FrameOutputs,
         (pictures, light): (Vec<Levels>, &FrameLight),
     ) -> Result<Results<()>>
     where
@@ -167,10 +211,9 @@ impl<'a> Sequence<'a> {
         let origin = job.origin_of(frame.frame)?.map(Arc::<str>::from);
         light.check_unchanged(&*job.files).at(|| named(frame))?;
         let words = FrameWords { place: turn.2 - 1, carried: light.carried(), origin };
-        let write = |((_, path), levels): (&'a (usize, std::path::PathBuf), Levels)| {
-            let path: &'a Path = path;
-            let words = words.clone();
-            let save = move || engine.writer().save(words, levels, path, Threads::One);
+        let write = |((_, path), levels): (&(usize, PathBuf), Levels)| {
+            let (path, words) = (path.clone(), words.clone());
+            let save = move || engine.writer().save(words, levels, &path, Threads::One);
             task(turn, move || stages.beside(Stage::Encode, save))
         };
         Ok(frame.files.iter().zip(pictures).map(write).collect())
@@ -183,8 +226,8 @@ impl Queues<'_> {
     fn finish_written(&mut self, most: usize, watcher: &mut dyn Watcher) -> Result<()> {
         while self.written.len() > most {
             let Some((frame, results)) = self.written.pop_front() else { break };
-            let written = all_of(results).at(|| named(frame));
-            written.and_then(|_| watcher.done(frame)).inspect_err(|_| self.written.clear())?;
+            let written = all_of(results).at(|| named(&frame));
+            written.and_then(|_| watcher.done(&frame)).inspect_err(|_| self.written.clear())?;
         }
         Ok(())
     }

@@ -9,17 +9,18 @@ use crate::diagnostic::{Diagnostic, Result};
 use crate::input::lists::{hugin, world_file};
 use crate::input::pictures::refuse_spec;
 use crate::input::{Input, Listed};
-use crate::source::{Access, DecodedPicture, Files, MemoryBudget, ViewFiles};
+use crate::source::{Access, DecodedPicture, Files, MemoryBudget, Name, ViewFiles};
 
 impl Input {
     /// Finds and probes the files of an input.
     pub(crate) fn find(
-        pattern: &str,
+        pattern: &Name,
         from: Option<&Spec>,
         wanted: Option<&FrameList>,
         access: Access,
         warnings: &mut Vec<Diagnostic>,
     ) -> Result<Self> {
+        pattern.check()?;
         if world_file::is_world_file(pattern) {
             refuse_spec(pattern, from, "views")?;
             return world_file::find(pattern, wanted, access, warnings);
@@ -28,14 +29,14 @@ impl Input {
     }
 
     /// Returns whether an input has a frame marker, or lists views that may have one.
-    pub(crate) fn may_be_sequence(pattern: &str) -> bool {
+    pub(crate) fn may_be_sequence(pattern: &Name) -> bool {
         world_file::is_world_file(pattern) || ViewFiles::new(Path::new(pattern)).has_frames()
     }
 }
 
 /// Lists the views of a world file or of a Hugin project; `None` if an input is neither.
 pub fn listed(
-    name: &str,
+    name: &Name,
     files: &dyn Files,
     memory: MemoryBudget,
     warnings: &mut Vec<Diagnostic>,

@@ -28,7 +28,7 @@ use cosmorama_io::{EnvMap, Header, Pose};
 
 use crate::detect::GivenFaces;
 use crate::diagnostic::{Code, Diagnostic, FROM, Result, TO};
-use crate::source::Access;
+use crate::source::{Access, Files};
 
 /// The input of a conversion: views, frames and files.
 pub struct Input {
@@ -151,6 +151,11 @@ impl Input {
         let of_frame =
             |frame: &Option<u64>| self.present().map(|(input, ..)| input.files.file(*frame)).collect::<Vec<_>>();
         self.frames.iter().flat_map(of_frame).chain(self.beside.iter().cloned())
+    }
+
+    /// Returns whether it is a stream that is read as it comes.
+    pub(crate) fn is_live(&self, files: &dyn Files) -> bool {
+        self.present().filter_map(|(view, ..)| view.files.video()).any(|video| files.live(video).is_some())
     }
 
     /// Tells the videos which of their frames will be read.

@@ -15,12 +15,12 @@ use crate::input::lists::hugin;
 use crate::input::{Input, InputView, packed};
 use crate::packing::EyePart;
 use crate::packing::canvas::{canvas_of, fits_canvas, fits_shape, lies_on_canvas, whole};
-use crate::source::{Access, ViewFiles, unread, wanted_frames};
+use crate::source::{Access, Name, ViewFiles, unread, wanted_frames};
 
 impl Input {
     /// Finds pictures, by their own name or by a Hugin project's.
     pub(crate) fn of_pictures(
-        pattern: &str,
+        pattern: &Name,
         from: Option<&Spec>,
         wanted: Option<&FrameList>,
         access: Access,
@@ -35,7 +35,7 @@ impl Input {
 
     /// Finds the input for each eye, where a SPEC has two.
     fn of_eyes(
-        pattern: &str,
+        pattern: &Name,
         from: Option<&Spec>,
         wanted: Option<&FrameList>,
         access: Access,
@@ -66,7 +66,7 @@ impl Input {
 
     /// Finds the input of one eye, or of both.
     fn find_one(
-        pattern: &str,
+        pattern: &Name,
         from: Option<&Spec>,
         (eye, access): (Option<EyePart>, Access),
         wanted: Option<&FrameList>,
@@ -92,7 +92,7 @@ impl Input {
 
     /// Finds a panorama or another single picture, or all faces of a cube in one.
     fn one_file(
-        pattern: &str,
+        pattern: &Name,
         shape: Option<&Shape>,
         (eye, access): (Option<EyePart>, Access),
         wanted: Option<&FrameList>,
@@ -135,7 +135,7 @@ impl Input {
 
     /// Makes the views of one file, and describes them if they are the faces of a cube.
     fn of_file(
-        (pattern, files): (&str, ViewFiles),
+        (pattern, files): (&Name, ViewFiles),
         (path, header): (&Path, Header),
         shape: Shape,
         warnings: &mut Vec<Diagnostic>,
@@ -153,9 +153,9 @@ impl Input {
         })
     }
 
-    fn single(pattern: &str, files: ViewFiles, path: &Path, header: Header, single: Single) -> Result<InputView> {
+    fn single(pattern: &Name, files: ViewFiles, path: &Path, header: Header, single: Single) -> Result<InputView> {
         let file = files.video().unwrap_or(path);
-        let name = file.file_name().map_or_else(|| pattern.to_owned(), |name| name.to_string_lossy().into_owned());
+        let name = file.file_name().map_or_else(|| pattern.to_string(), |name| name.to_string_lossy().into_owned());
         let mut placement = single.placement;
         let canvas = placement.canvas.or(header.window.map(canvas_of)).unwrap_or_else(|| whole(&header));
         fits_canvas(path, &header, canvas)?;

@@ -129,7 +129,7 @@ impl ConvertJob {
         warnings: &mut Vec<Diagnostic>,
     ) -> Result<Self> {
         let memory = MemoryBudget::new(settings.limits.memory);
-        let file = content.has_files().then_some(settings.input.as_str());
+        let file = content.has_files().then_some(&settings.input);
         let decoded = DecodedPicture::up_to(memory.bytes / DECODED_PART);
         let files = chosen(settings, content);
         let access = Access { files: &*files, memory, decoded: &decoded };
@@ -269,7 +269,9 @@ impl ConvertJob {
             return Ok(());
         }
         let has_frames = self.input.frames.iter().any(Option::is_some);
-        let has_place = has_frames && !settings.strip && !self.target.format.is_video();
+        // Of a stream, only its end would tell from what its frames were made.
+        let is_live = self.input.is_live(&*self.files);
+        let has_place = has_frames && !settings.strip && !self.target.format.is_video() && !is_live;
         self.origin = has_place.then(|| Origin::of(self, settings));
         let mut outputs = std::mem::take(&mut self.outputs);
         let left = outputs.leave_finished(settings.existing, self);

@@ -2,7 +2,7 @@ use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
 use cosmorama_io::pending::{NewFolders, Pending, free_space, place};
-use cosmorama_io::{Compression, Format};
+use cosmorama_io::{Compression, Format, FramePattern};
 
 use crate::diagnostic::{Code, Diagnostic, FRAMES, OVERWRITE, RESUME, Result, bail, failure, usage, usage_as};
 use crate::input::Input;
@@ -13,6 +13,7 @@ use crate::source::memory_budget::human;
 use crate::target::{Target, TargetFile};
 
 /// A frame with its outputs that are still to be made.
+#[derive(Clone)]
 pub(crate) struct FrameOutputs {
     /// Number of the frame; `None` where there is no sequence.
     pub(crate) frame: Option<u64>,
@@ -25,6 +26,10 @@ pub(crate) struct FrameOutputs {
 pub(crate) struct Outputs {
     /// Frames with outputs to make.
     pub(crate) frames: Vec<FrameOutputs>,
+    /// Whether others follow, until the input ends, which is a stream.
+    pub(crate) go_on: bool,
+    /// Whether they are passed on to a stream, and become no files.
+    is_passed_on: bool,
     /// Number of outputs that exist already.
     pub(crate) skipped: usize,
     /// Outputs that are made again because something else is in their place.
@@ -37,6 +42,16 @@ impl Outputs {
     /// Returns whether the outputs are frames of a sequence, even if there is only one.
     pub(crate) fn is_sequence(&self) -> bool {
         self.frames.iter().any(|frame| frame.frame.is_some())
+    }
+
+    /// Returns the number of frames; `None` while the input's end is not known.
+    pub(crate) fn count(&self) -> Option<usize> {
+        (!self.go_on).then_some(self.frames.len())
+    }
+
+    /// Returns whether there may be more frames than one.
+    pub(crate) fn are_many(&self) -> bool {
+        self.go_on || self.frames.len() > 1
     }
 
     /// Visits all outputs to make. A video is one output of all frames.
@@ -65,13 +80,13 @@ impl Outputs {
     ) -> Result<Self> {
         check_frame_markers(args, input, target)?;
         check_resume(args, target)?;
+        check_order(args, input)?;
         let inputs = files_read((input, behind), &args.geometry);
         let (mut frames, mut made) = (Vec::new(), NewFolders::new(&args.unfinished));
         let (mut folders, mut places) = (HashSet::new(), HashMap::new());
         for &frame in &input.frames {
-            let path = |file: &TargetFile| file.files.file(frame);
-            let files: Vec<(usize, PathBuf)> = target.files.iter().map(path).enumerate().collect();
-            let is_begun = target.format.is_video() && !frames.is_empty();
+            let FrameOutputs { files, .. } = Self::of_frame(frame, target);
+            let is_begun = target.format.is_video() && !frames.is_empty() || args.sink.is_some();
             for (_, path) in files.iter().filter(|_| !is_begun) {
                 check_apart(path, &inputs)?;
                 // Not the folder behind a link: if that is missing, its disk may not be mounted.
@@ -96,7 +111,14 @@ impl Outputs {
             }
             frames.push(FrameOutputs { frame, files });
         }
-        Ok(Self { frames, _folders: made, ..Self::default() })
+        let go_on = args.frames.is_none() && input.is_live(&*args.files);
+        Ok(Self { frames, go_on, is_passed_on: args.sink.is_some(), _folders: made, ..Self::default() })
+    }
+
+    /// Returns the outputs of a frame.
+    pub(crate) fn of_frame(frame: Option<u64>, target: &Target) -> FrameOutputs {
+        let files = target.files.iter().map(|file| file.files.file(frame)).enumerate().collect();
+        FrameOutputs { frame, files }
     }
 
     /// Leaves out the outputs that a job need not make again, or refuses to replace them.
@@ -104,8 +126,13 @@ impl Outputs {
         let all = self.paths().count();
         match existing {
             Existing::Resume => self.remade = Remade::find(&mut self.frames, job)?,
-            Existing::Refuse => refuse_existing_or(self.paths(), &format!(", or keep what is there with {RESUME}"))?,
-            Existing::Replace => {}
+            Existing::Refuse if !self.is_passed_on => {
+                let numbered = if self.go_on { numbered(&job.target) } else { Vec::new() };
+                let others = self.paths().filter(|path| !numbered.iter().any(|numbered| numbered == path));
+                let all = others.chain(numbered.iter().map(PathBuf::as_path));
+                refuse_existing_or(all, &format!(", or keep what is there with {RESUME}"))?;
+            }
+            Existing::Refuse | Existing::Replace => {}
         }
         self.frames.retain(|frame| !frame.files.is_empty());
         self.skipped = all - self.paths().count();
@@ -138,6 +165,7 @@ impl Space {
         let replaced = |(_, path): &(usize, PathBuf)| std::fs::metadata(path).map_or(0, |file| file.len());
         let replaced: u64 = frames.iter().flat_map(|frame| &frame.files).map(replaced).sum();
         let folder = frames.first().and_then(|frame| frame.files.first()).and_then(|(_, path)| path.parent());
+        let folder = folder.filter(|_| !job.outputs.is_passed_on);
         let free = folder.and_then(free_space).map(|free| free.saturating_add(replaced));
         Self { frame, all: frame.saturating_mul(frames.len() as u64), free }
     }
@@ -207,6 +235,29 @@ fn check_frame_markers(args: &Conversion, input: &Input, target: &Target) -> Res
         )));
     }
     Ok(())
+}
+
+/// Refuses what a stream that is read as it comes cannot give.
+fn check_order(args: &Conversion, input: &Input) -> Result<()> {
+    if input.is_live(&*args.files) && !args.reads_in_order() {
+        return Err(usage(format!(
+            "{} is a stream, whose frames come once, and its end is not known; read it from a file for this",
+            args.input
+        )));
+    }
+    Ok(())
+}
+
+/// Returns the files that exist and have the name of any frame.
+fn numbered(target: &Target) -> Vec<PathBuf> {
+    let pattern =
+        |file: &TargetFile| if let ViewFiles::Sequence(pattern) = &file.files { Some(pattern.clone()) } else { None };
+    let existing = |pattern: FramePattern| {
+        // A folder that cannot be read has none; writing into it tells what is wrong.
+        let frames = pattern.existing().unwrap_or_default();
+        frames.into_iter().map(move |frame| pattern.path(frame))
+    };
+    target.files.iter().filter_map(pattern).flat_map(existing).collect()
 }
 
 /// Refuses to go on with a video.

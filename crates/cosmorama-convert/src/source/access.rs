@@ -1,8 +1,8 @@
 use std::collections::BTreeMap;
 use std::fmt::Debug;
-use std::io::{self, Cursor, Read};
+use std::io::{self, BufRead, Cursor, Read};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use cosmorama::raster::FramePool;
 use cosmorama_io::pending::Unfinished;
@@ -14,7 +14,7 @@ use cosmorama_io::{
 use super::decoded_picture::DecodedPicture;
 use super::stamp::Stamp;
 use crate::source::MemoryBudget;
-use crate::source::video::{DamagedFrames, FrameName, RawFiles, Videos};
+use crate::source::video::{DamagedFrames, FrameName, RawBytes, RawFiles, Videos};
 
 /// Greatest length in bytes of a file that is read whole, which is a camera's path or belongs to one.
 const LONGEST: u64 = 1 << 30;
@@ -41,9 +41,23 @@ pub trait Files: Debug + Send + Sync {
         None
     }
 
+    /// Returns a stream whose bytes come once, one behind the other; `None` for files. It can be opened by this alone.
+    fn live(&self, _path: &Path) -> Option<&LiveStream> {
+        None
+    }
+
     /// Returns a stamp that differs once a file has changed; `None` where files do not change, or are gone.
     fn stamp(&self, _path: &Path) -> Option<Stamp> {
         None
+    }
+}
+
+/// Stream of raw pictures whose bytes come once, such as standard input. Whoever takes it reads it as it comes.
+pub struct LiveStream(Mutex<Option<Box<dyn BufRead + Send>>>);
+
+impl LiveStream {
+    fn take(&self) -> Option<Box<dyn BufRead + Send>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).take()
     }
 }
 
@@ -69,8 +83,9 @@ pub(crate) struct ChosenFiles {
 struct Streams(Arc<dyn Files>);
 
 impl RawFiles for Streams {
-    fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek + Send>, IoError> {
-        self.0.open(path)
+    fn open(&self, path: &Path) -> Result<RawBytes, IoError> {
+        let live = self.0.live(path).and_then(LiveStream::take).map(RawBytes::Live);
+        live.map_or_else(|| Ok(RawBytes::Kept(self.0.open(path)?)), Ok)
     }
 }
 
@@ -102,6 +117,10 @@ impl Files for ChosenFiles {
 
     fn videos(&self) -> Option<&Videos> {
         Some(&self.videos)
+    }
+
+    fn live(&self, path: &Path) -> Option<&LiveStream> {
+        self.files.live(path)
     }
 
     fn stamp(&self, path: &Path) -> Option<Stamp> {
@@ -139,6 +158,8 @@ enum Held {
     Memory(Arc<[u8]>),
     /// In a file of another name.
     Disk(PathBuf),
+    /// As they come, once.
+    Live(Arc<LiveStream>),
 }
 
 impl InMemory {
@@ -150,6 +171,12 @@ impl InMemory {
     /// Adds a file that is too long for memory, whose bytes are in another file on disk.
     pub fn insert_kept(&mut self, name: impl Into<PathBuf>, kept: PathBuf) {
         self.files.insert(name.into(), Held::Disk(kept));
+    }
+
+    /// Adds a stream of raw pictures that is read once, as it comes. Its name says what it is: `.y4m`, `.pam` or `.pfm`.
+    pub fn insert_live(&mut self, name: impl Into<PathBuf>, bytes: impl BufRead + Send + 'static) {
+        let stream = LiveStream(Mutex::new(Some(Box::new(bytes))));
+        self.files.insert(name.into(), Held::Live(Arc::new(stream)));
     }
 }
 
@@ -164,12 +191,24 @@ impl Files for InMemory {
         match self.files.get(path) {
             Some(Held::Memory(bytes)) => Ok(Box::new(Cursor::new(Arc::clone(bytes)))),
             Some(Held::Disk(kept)) => Disk.open(kept),
+            Some(Held::Live(_)) => {
+                let source =
+                    io::Error::new(io::ErrorKind::NotSeekable, "a stream can be read once, and from its beginning");
+                Err(IoError::Open { path: path.to_owned(), source })
+            }
             None => Disk.open(path),
         }
     }
 
     fn holds(&self, path: &Path) -> bool {
         self.files.contains_key(path)
+    }
+
+    fn live(&self, path: &Path) -> Option<&LiveStream> {
+        match self.files.get(path) {
+            Some(Held::Live(stream)) => Some(stream),
+            _ => None,
+        }
     }
 
     fn stamp(&self, path: &Path) -> Option<Stamp> {

@@ -3,6 +3,7 @@
 pub(crate) mod access;
 pub(crate) mod decoded_picture;
 pub(crate) mod memory_budget;
+pub(crate) mod name;
 pub(crate) mod stamp;
 pub(crate) mod system_memory;
 pub(crate) mod unread;
@@ -10,8 +11,9 @@ pub(crate) mod video;
 pub(crate) mod view_files;
 pub(crate) mod wanted_frames;
 
-pub use access::{Disk, Files, InMemory, probe, read, with_videos};
+pub use access::{Disk, Files, InMemory, LiveStream, probe, read, with_videos};
 pub use memory_budget::MemoryBudget;
+pub use name::Name;
 pub use stamp::Stamp;
 pub use system_memory::peak_bytes;
 pub use view_files::ViewFiles;

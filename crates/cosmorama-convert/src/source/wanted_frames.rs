@@ -9,8 +9,8 @@ use crate::source::{Files, ViewFiles};
 enum Series<'a> {
     /// A file for each frame.
     Files(&'a FramePattern),
-    /// A video, with the number of its frames.
-    Video { name: String, count: u64 },
+    /// A video, with the number of its frames; `None` for a stream that is read as it comes.
+    Video { name: String, count: Option<u64> },
 }
 
 /// Finds the frames to work on: the requested ones, or all that there are. `[None]` where there is no sequence.
@@ -47,7 +47,7 @@ impl<'a> Series<'a> {
             ViewFiles::One(_) => None,
             ViewFiles::Sequence(pattern) => Some(Self::Files(pattern)),
             ViewFiles::Video(video) => {
-                let count = inputs.videos().map_or(Ok(0), |videos| videos.count(video))?;
+                let count = inputs.videos().map_or(Ok(Some(0)), |videos| videos.count(video))?;
                 Some(Self::Video { name: video.display().to_string(), count })
             }
         })
@@ -56,7 +56,8 @@ impl<'a> Series<'a> {
     fn existing(&self) -> Result<BTreeSet<u64>, IoError> {
         match self {
             Self::Files(pattern) => pattern.existing(),
-            Self::Video { count, .. } => Ok((0..*count).collect()),
+            // Of a stream, the first; the others follow until it ends.
+            Self::Video { count, .. } => Ok((0..count.unwrap_or(1)).collect()),
         }
     }
 
@@ -64,7 +65,8 @@ impl<'a> Series<'a> {
     fn check(&self, list: Option<&FrameList>) -> Result<(), IoError> {
         match self {
             Self::Files(pattern) => Frames::find((*pattern).clone(), list).map(|_| ()),
-            Self::Video { name, count } => {
+            Self::Video { count: None, .. } => Ok(()),
+            Self::Video { name, count: Some(count) } => {
                 let missing = list.iter().flat_map(|list| list.frames()).copied().filter(|frame| frame >= count);
                 let missing: Vec<u64> = missing.collect();
                 if missing.is_empty() {

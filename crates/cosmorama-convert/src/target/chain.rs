@@ -5,18 +5,19 @@ use cosmorama_spec::Size;
 
 use crate::diagnostic::{Code, LEVELS, Result, SIZE, usage, usage_as};
 use crate::settings::GeometrySettings;
+use crate::source::Name;
 use crate::target::{Sheet, Target, TargetFile, TargetView};
 
 /// Mark for the number of a level in an output's name.
 const MARK: &str = "{level}";
 
 /// Returns the name of a level's output.
-pub(crate) fn name_of_level(output: &str, level: usize) -> String {
-    output.replace(MARK, &level.to_string())
+pub(crate) fn name_of_level(output: &Name, level: usize) -> Name {
+    output.replacing(MARK, &level.to_string())
 }
 
 /// Returns how many levels files hold in which they go down to one pixel, as in OpenEXR; `None` where they end as asked.
-pub(crate) fn whole_chain(output: &str, target: &Target) -> Option<usize> {
+pub(crate) fn whole_chain(output: &Name, target: &Target) -> Option<usize> {
     let is_whole = target.format == Format::Exr && !output.contains(MARK);
     let (width, height) = target.files.first()?.sheet.size;
     is_whole.then(|| width.max(height).max(1).ilog2() as usize + 1)
@@ -24,7 +25,7 @@ pub(crate) fn whole_chain(output: &str, target: &Target) -> Option<usize> {
 
 impl Target {
     /// Adds the further levels of a chain. `output` is the name as it was typed.
-    pub(crate) fn with_chain(mut self, output: &str, geometry: &GeometrySettings, levels: usize) -> Result<Self> {
+    pub(crate) fn with_chain(mut self, output: &Name, geometry: &GeometrySettings, levels: usize) -> Result<Self> {
         let has_mark = output.contains(MARK);
         check_format(output, self.format, (has_mark, levels))?;
         let whole = whole_chain(output, &self);
@@ -73,7 +74,7 @@ impl Target {
 }
 
 /// Checks that an output holds all levels of a chain.
-fn check_format(output: &str, format: Format, (has_mark, levels): (bool, usize)) -> Result<()> {
+fn check_format(output: &Name, format: Format, (has_mark, levels): (bool, usize)) -> Result<()> {
     if has_mark || format.holds_levels() {
         return Ok(());
     }

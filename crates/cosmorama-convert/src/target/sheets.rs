@@ -8,8 +8,8 @@ use cosmorama_spec::{Cube, Packing, Shape, Size, Spec};
 use crate::diagnostic::{Code, MIPS, Result, SIZE, TO, usage, usage_as};
 use crate::packing::Place;
 use crate::settings::{Conversion, GeometrySettings};
-use crate::source::ViewFiles;
 use crate::source::video::{MadeVideos, RawKind, is_video};
+use crate::source::{Name, ViewFiles};
 use crate::target::Picture;
 use crate::target::picture::world_of;
 
@@ -85,8 +85,9 @@ impl Target {
 
 impl Target {
     /// Checks that an output's name is consistent with `--to`.
-    pub(crate) fn check_names(output: &str, geometry: &GeometrySettings) -> Result<Format> {
+    pub(crate) fn check_names(output: &Name, geometry: &GeometrySettings) -> Result<Format> {
         let format = format_of(output)?;
+        output.check()?;
         let faces = FacePattern::parse(output).is_some();
         check_markers(output)?;
         match geometry.to.as_ref() {
@@ -113,7 +114,7 @@ impl Target {
 
     /// Returns the target for an output's name, its projection and size. Without a size, the centre gets so many pixels
     /// per radian.
-    pub(crate) fn resolve(output: &str, geometry: &GeometrySettings, pixels_per_radian: Option<f64>) -> Result<Self> {
+    pub(crate) fn resolve(output: &Name, geometry: &GeometrySettings, pixels_per_radian: Option<f64>) -> Result<Self> {
         let format = Self::check_names(output, geometry)?;
         let container = FacePattern::parse(output).is_none().then_some(format);
         let pictures = Picture::all(geometry, container, pixels_per_radian)?;
@@ -134,7 +135,7 @@ impl Target {
             };
             let size = (picture.view.width(), picture.view.height());
             let Place { corner, of } = picture.place.unwrap_or(Place::whole(size));
-            let name = picture.label().unwrap_or_else(|| output.to_owned());
+            let name = picture.label().unwrap_or_else(|| output.to_string());
             views.push(TargetView { name, view: picture.view.clone(), eye: picture.eye, level: 0 });
             match paths.iter().position(|other| *other == path) {
                 Some(shared) => files[shared].sheet.pieces.push((index, corner)),
@@ -169,7 +170,7 @@ impl Target {
     /// Adds the mip levels of its cube, down to faces of one pixel.
     ///
     /// Each level is converted at its own size, so that its faces match at the edges like the largest ones.
-    pub(crate) fn with_mips(mut self, output: &str, geometry: &GeometrySettings) -> Result<Self> {
+    pub(crate) fn with_mips(mut self, output: &Name, geometry: &GeometrySettings) -> Result<Self> {
         if !self.format.is_cube_map() {
             return Err(usage(format!(
                 "{MIPS} is for textures, but {output} is {}; leave it out, or name the output .ktx2 or .dds",
@@ -198,7 +199,7 @@ impl Target {
 }
 
 /// Returns the format of an output, by its extension.
-fn format_of(output: &str) -> Result<Format> {
+fn format_of(output: &Name) -> Result<Format> {
     let path = Path::new(output);
     if is_video(path) {
         return Ok(RawKind::of(path).map_or(Format::Video, RawKind::format));
@@ -208,7 +209,7 @@ fn format_of(output: &str) -> Result<Format> {
 
 /// Refuses names that contain an invalid marker, which would become part of a file's name. Existing folders may have
 /// any name.
-fn check_markers(output: &str) -> Result<()> {
+fn check_markers(output: &Name) -> Result<()> {
     let path = Path::new(output);
     let is_in_folder = path.parent().is_some_and(Path::is_dir);
     let made = path.file_name().and_then(|name| name.to_str()).filter(|_| is_in_folder).unwrap_or(output);
@@ -224,7 +225,7 @@ fn check_markers(output: &str) -> Result<()> {
 }
 
 /// Checks that the faces of a cube go into files of their own, or into one file with a known layout.
-fn check_cube(output: &str, faces: bool, cube: &Cube, stereo: bool, format: Format) -> Result<Format> {
+fn check_cube(output: &Name, faces: bool, cube: &Cube, stereo: bool, format: Format) -> Result<Format> {
     match (faces, cube.layout) {
         (true, Some(Packing::OneImage(kind))) => Err(usage(format!(
             "{TO} cube:layout={kind} makes one image, but {output} names a file for each face; leave {{face}} or %c out"

@@ -107,7 +107,7 @@ fn a_still_that_changes_while_frames_are_made_of_it_is_named() {
         let small = small.to("perspective:fov=60".parse().unwrap()).size("32".parse().unwrap());
         small.check().result.unwrap().run(&mut Quiet).unwrap();
     }
-    let conversion = Conversion { input: world.display().to_string(), ..domes(folder) };
+    let conversion = Conversion { input: world.display().to_string().into(), ..domes(folder) };
     let later = SystemTime::now() + Duration::from_secs(3600);
     let touch =
         || std::fs::File::options().write(true).open(folder.join("back.png")).unwrap().set_modified(later).unwrap();
@@ -143,7 +143,7 @@ fn a_folder_of_outputs_that_vanishes_is_named() {
     let folder = folder.path();
     skies(folder);
     let out = folder.join("sky_domes");
-    let conversion = || Conversion { output: out.join("dome_##.png").display().to_string(), ..domes(folder) };
+    let conversion = || Conversion { output: out.join("dome_##.png").display().to_string().into(), ..domes(folder) };
     let error = run(conversion(), || std::fs::remove_dir_all(&out).unwrap()).unwrap_err();
     let message = error.message().to_string();
     assert_eq!(error.code(), Code::Unwritable, "{message}");

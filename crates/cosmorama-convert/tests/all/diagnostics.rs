@@ -126,7 +126,7 @@ fn errors_have_codes_that_programs_can_react_to() {
         ("no folder", Conversion { make_folders: false, ..view("sky.png", "nowhere/out.png") }, Code::Unwritable),
         ("a folder in a file", view("sky.png", "text.png/folder/out.png"), Code::Unwritable),
         ("a view of a part", view("front.png", "out.png").from("perspective:fov=20".parse().unwrap()), Code::Uncovered),
-        ("wide", Conversion { output: path("out.jpg"), ..sized("70000x2") }, Code::OutputFormat),
+        ("wide", Conversion { output: path("out.jpg").into(), ..sized("70000x2") }, Code::OutputFormat),
         ("memory", sky().memory(MemorySize::Bytes(1)), Code::Memory),
         ("shape", view("tall.png", "out.png").from("equirect".parse().unwrap()), Code::WrongSize),
     ];

@@ -74,7 +74,7 @@ fn assert_same_from_memory(folder: &Path, conversion: Conversion) {
     let made = tempfile::tempdir().unwrap();
     let path = |name: &str| made.path().join(name);
     let conversion = conversion.size("40x30".parse().unwrap());
-    let to = |name: &str| Conversion { output: path(name).display().to_string(), ..conversion.clone() };
+    let to = |name: &str| Conversion { output: path(name).display().to_string().into(), ..conversion.clone() };
     to("disk.png").check().result.unwrap().run(&mut Quiet).unwrap();
     let mut files = InMemory::default();
     for entry in folder.read_dir().unwrap() {
@@ -134,7 +134,8 @@ fn an_st_map_may_be_in_memory() {
     let folder = folder.path();
     let map = folder.join("map.exr");
     let st_map = Conversion { st_map: true, ..narrow(folder, "view.png") };
-    let st_map = Conversion { output: map.display().to_string(), ..st_map.from("perspective:fov=75".parse().unwrap()) };
+    let st_map =
+        Conversion { output: map.display().to_string().into(), ..st_map.from("perspective:fov=75".parse().unwrap()) };
     st_map.size("40x30".parse().unwrap()).check().result.unwrap().run(&mut Quiet).unwrap();
     let mut conversion = narrow(folder, "view.png").from(format!("st-map:file={}", map.display()).parse().unwrap());
     conversion.geometry.to = None;

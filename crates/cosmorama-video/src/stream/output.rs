@@ -21,9 +21,10 @@ impl<W: Write> Output<W> {
         self.sink.write_all(bytes).map_err(|source| VideoError::WriteStream { name: self.name.clone(), source })
     }
 
-    /// Counts a frame that is written.
-    pub(super) fn count(&mut self) {
+    /// Hands on a frame that is written, so that whoever reads the stream has all of it, and counts it.
+    pub(super) fn end_frame(&mut self) -> Result<(), VideoError> {
         self.frame += 1;
+        self.flush()
     }
 
     pub(super) fn wrong(&self, found: String, expected: impl Into<String>) -> VideoError {
@@ -31,9 +32,11 @@ impl<W: Write> Output<W> {
     }
 
     pub(super) fn finish(mut self) -> Result<W, VideoError> {
-        match self.sink.flush() {
-            Ok(()) => Ok(self.sink),
-            Err(source) => Err(VideoError::WriteStream { name: self.name, source }),
-        }
+        self.flush()?;
+        Ok(self.sink)
+    }
+
+    fn flush(&mut self) -> Result<(), VideoError> {
+        self.sink.flush().map_err(|source| VideoError::WriteStream { name: self.name.clone(), source })
     }
 }

@@ -178,8 +178,7 @@ impl<W: Write> PamWriter<W> {
                 return Err(self.output.wrong(format!("has depth {}", frame.depth()), "integers; PFM holds floats"));
             }
         }
-        self.output.count();
-        Ok(())
+        self.output.end_frame()
     }
 
     /// Writes what is left in buffers.

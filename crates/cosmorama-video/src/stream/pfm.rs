@@ -115,8 +115,7 @@ impl<W: Write> PfmWriter<W> {
             }
         }
         self.output.write(&bytes)?;
-        self.output.count();
-        Ok(())
+        self.output.end_frame()
     }
 
     /// Writes what is left in buffers.

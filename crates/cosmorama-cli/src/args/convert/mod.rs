@@ -4,7 +4,7 @@ mod video;
 
 use clap::builder::{NonEmptyStringValueParser, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
-use cosmorama_convert::{DepthKind, NormalSpace, OcioSettings};
+use cosmorama_convert::{DepthKind, Name, NormalSpace, OcioSettings};
 use cosmorama_io::{Compression, FrameList};
 use cosmorama_spec::{
     Colour, DepthName, FrameMap, FrameRanges, FrameRangesError, MemorySize, Missing, PrimariesName, Spec, TransferName,
@@ -12,6 +12,7 @@ use cosmorama_spec::{
 
 use super::{SEE_MORE, projections, with_examples};
 use crate::parse::compression::CompressionParser;
+use crate::parse::file;
 use crate::parse::listed;
 use crate::parse::progress::ProgressStyle;
 
@@ -76,11 +77,11 @@ pub(crate) struct ConvertArgs {
     /// A pattern has {face} or %c where faces' names stand, and ####, @@@@ or %04d where frame numbers do. A world file (.toml)
     /// holds many views, each with image, spec, mask, priority and feather in degrees; a Hugin project (.pto) is read, too. A video is
     /// read through the installed ffmpeg (docs/video.md).
-    #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
-    pub(crate) input: String,
+    #[arg(value_hint = ValueHint::FilePath, value_parser = file::name())]
+    pub(crate) input: Name,
     /// An image, pattern or video, by its extension; - is standard output
-    #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
-    pub(crate) output: String,
+    #[arg(value_hint = ValueHint::FilePath, value_parser = file::name())]
+    pub(crate) output: Name,
     #[command(flatten)]
     pub(crate) geometry: GeometryArgs,
     #[command(flatten)]
@@ -163,8 +164,8 @@ pub(crate) struct ConvertArgs {
     /// A world behind the input's alpha, and behind what it does not cover
     ///
     /// Named like an input; builtin:NAME, too. Both are seen by the same camera, and composited in linear light.
-    #[arg(long, value_name = "INPUT", value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new(), hide_short_help = true, help_heading = "Light")]
-    pub(crate) backdrop: Option<String>,
+    #[arg(long, value_name = "INPUT", value_hint = ValueHint::FilePath, value_parser = file::name(), hide_short_help = true, help_heading = "Light")]
+    pub(crate) backdrop: Option<Name>,
     /// The backdrop's projection [default: found]
     #[arg(long, value_name = "SPEC", value_parser = listed::spec(), hide_possible_values = true, requires = "backdrop", hide_short_help = true, help_heading = "Light")]
     pub(crate) backdrop_from: Option<Spec>,

@@ -76,7 +76,7 @@ impl ConvertArgs {
     /// Returns the output's name, which is that of a file of its format for standard output.
     pub(crate) fn named_output(&self) -> PathBuf {
         let of_stream = |format: &String| format!("{}.{}", self.output, format.trim_start_matches('.')).into();
-        self.format.as_ref().map_or_else(|| self.output.clone().into(), of_stream)
+        self.format.as_ref().map_or_else(|| self.output.path().to_owned(), of_stream)
     }
 }
 

@@ -1,12 +1,12 @@
 use std::path::PathBuf;
 
-use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueEnum, ValueHint};
-use cosmorama_convert::Conversion;
+use cosmorama_convert::{Conversion, Name};
 use cosmorama_spec::Missing;
 
 use super::world::WorldArgs;
 use crate::args::{ProgressStyle, with_examples};
+use crate::parse::file;
 
 /// Commands that the help of `light deploy` shows.
 pub(super) const DEPLOY_EXAMPLES: [&str; 4] = [
@@ -24,8 +24,8 @@ pub(super) const DEPLOY_EXAMPLES: [&str; 4] = [
 #[command(help_template = with_examples(&DEPLOY_EXAMPLES))]
 pub(crate) struct DeployArgs {
     /// An image or a pattern, as convert takes it; - is standard input
-    #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
-    pub(crate) input: String,
+    #[arg(value_hint = ValueHint::FilePath, value_parser = file::name())]
+    pub(crate) input: Name,
     /// A folder, which is made
     #[arg(value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub(crate) folder: PathBuf,

@@ -1,14 +1,14 @@
 use std::path::PathBuf;
 use std::str::FromStr;
 
-use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueEnum, ValueHint};
 use cosmorama::lighting::{HIGHEST_ORDER, HarmonicBasis, HarmonicKind, HarmonicPreset, HarmonicWindow};
-use cosmorama_convert::Conversion;
+use cosmorama_convert::{Conversion, Name};
 use cosmorama_spec::Missing;
 
 use super::world::WorldArgs;
 use crate::args::with_examples;
+use crate::parse::file;
 
 /// Commands that the help of `light harmonics` shows.
 pub(super) const HARMONICS_EXAMPLES: [&str; 4] = [
@@ -27,8 +27,8 @@ pub(super) const HARMONICS_EXAMPLES: [&str; 4] = [
 #[command(help_template = with_examples(&HARMONICS_EXAMPLES))]
 pub(crate) struct HarmonicsArgs {
     /// An image or a pattern, as convert takes it; - is standard input
-    #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
-    pub(crate) input: String,
+    #[arg(value_hint = ValueHint::FilePath, value_parser = file::name())]
+    pub(crate) input: Name,
     /// A file: .json, .csv, or code: .glsl, .hlsl, .rs, .cpp, .hpp, .h
     #[arg(value_hint = ValueHint::FilePath)]
     pub(crate) output: PathBuf,

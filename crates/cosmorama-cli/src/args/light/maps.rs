@@ -1,13 +1,13 @@
-use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueEnum, ValueHint};
 use cosmorama::raster::Depth;
-use cosmorama_convert::{Conversion, GeometrySettings, LightScale};
+use cosmorama_convert::{Conversion, GeometrySettings, LightScale, Name};
 use cosmorama_spec::{DepthName, Missing, Size, Spec, TransferName};
 
 use super::lobe::LobeName;
 use super::roughness::RoughnessMapName;
 use crate::args::convert::{FilesArgs, FramesAsked, RunArgs, TurnArgs, existing};
 use crate::args::with_examples;
+use crate::parse::file;
 use crate::parse::listed::{self, Listed};
 use crate::parse::number::every;
 
@@ -125,11 +125,11 @@ pub(crate) enum Unit {
 #[derive(Clone, Debug, Args)]
 pub(crate) struct MapArgs {
     /// An image or a pattern, as convert takes it; - is standard input
-    #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
-    pub(crate) input: String,
+    #[arg(value_hint = ValueHint::FilePath, value_parser = file::name())]
+    pub(crate) input: Name,
     /// An image or a pattern, by its extension
-    #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
-    pub(crate) output: String,
+    #[arg(value_hint = ValueHint::FilePath, value_parser = file::name())]
+    pub(crate) output: Name,
     /// The input's projection [default: found]
     #[arg(long, value_name = "SPEC", value_parser = listed::spec(), hide_possible_values = true, help_heading = "Geometry")]
     pub(crate) from: Option<Spec>,

@@ -1,12 +1,12 @@
 use std::path::PathBuf;
 
-use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueHint};
-use cosmorama_convert::Conversion;
+use cosmorama_convert::{Conversion, Name};
 use cosmorama_spec::Missing;
 
 use super::world::WorldArgs;
 use crate::args::with_examples;
+use crate::parse::file;
 
 /// Commands that the help of `light sun` shows.
 pub(super) const SUN_EXAMPLES: [&str; 4] = [
@@ -24,8 +24,8 @@ pub(super) const SUN_EXAMPLES: [&str; 4] = [
 #[command(help_template = with_examples(&SUN_EXAMPLES))]
 pub(crate) struct SunArgs {
     /// An image or a pattern, as convert takes it; - is standard input
-    #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
-    pub(crate) input: String,
+    #[arg(value_hint = ValueHint::FilePath, value_parser = file::name())]
+    pub(crate) input: Name,
     /// Write the picture without its suns: the light around them goes on behind; #### stands for the number of a frame
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = "Light")]
     pub(crate) remove: Option<PathBuf>,

@@ -1,14 +1,14 @@
 use std::path::PathBuf;
 
-use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueEnum, ValueHint};
 use cosmorama::lighting::{LARGEST_COLOUR_TABLE, TableAngle};
 use cosmorama::sphere::{Angle, Orientation};
-use cosmorama_convert::Conversion;
+use cosmorama_convert::{Conversion, Name};
 use cosmorama_spec::{DepthName, Missing};
 
 use super::world::WorldArgs;
 use crate::args::with_examples;
+use crate::parse::file;
 use crate::parse::listed;
 use crate::parse::number::degrees;
 
@@ -28,8 +28,8 @@ pub(super) const TABLE_EXAMPLES: [&str; 4] = [
 #[command(help_template = with_examples(&TABLE_EXAMPLES))]
 pub(crate) struct TableArgs {
     /// A world, as convert takes it; a table in CSV; or stops:DEGREES=COLOUR;…
-    #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
-    pub(crate) input: String,
+    #[arg(value_hint = ValueHint::FilePath, value_parser = file::name())]
+    pub(crate) input: Name,
     /// A .csv file or a picture
     #[arg(value_hint = ValueHint::FilePath)]
     pub(crate) output: PathBuf,

@@ -1,5 +1,5 @@
 use clap::Args;
-use cosmorama_convert::{Conversion, GeometrySettings};
+use cosmorama_convert::{Conversion, GeometrySettings, Name};
 use cosmorama_io::FrameList;
 use cosmorama_spec::{Missing, Spec, TransferName};
 
@@ -29,7 +29,7 @@ pub(crate) struct WorldArgs {
 
 impl WorldArgs {
     /// Returns the settings by which the world is read.
-    pub(super) fn conversion(self, input: String, missing: Missing) -> Conversion {
+    pub(super) fn conversion(self, input: Name, missing: Missing) -> Conversion {
         Conversion {
             input,
             geometry: GeometrySettings { from: self.from, ..GeometrySettings::default() },

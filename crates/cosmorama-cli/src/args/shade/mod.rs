@@ -5,14 +5,15 @@ mod names;
 
 use std::path::PathBuf;
 
-use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueHint};
 use cosmorama::sphere::Angle;
+use cosmorama_convert::Name;
 use cosmorama_io::FrameList;
 use cosmorama_spec::{DepthName, FilterName, KernelName, Missing, Size, Spec, TransferName};
 
 use super::convert::{LimitArgs, OutputArgs, frame_list};
 use super::with_examples;
+use crate::parse::file;
 use crate::parse::listed::{self, Listed};
 use crate::parse::number::{crease, distance, factor};
 
@@ -42,11 +43,11 @@ pub(super) const EXAMPLES: [&str; 7] = [
 #[command(after_help = "docs/objects.md has the conventions, docs/scenes.md the keys of scene files")]
 pub(crate) struct ShadeArgs {
     /// The world: an image, a pattern, builtin:NAME, or none for chrome; - is standard input
-    #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
-    pub(crate) world: String,
+    #[arg(value_hint = ValueHint::FilePath, value_parser = file::name())]
+    pub(crate) world: Name,
     /// An image, by its extension
-    #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
-    pub(crate) output: String,
+    #[arg(value_hint = ValueHint::FilePath, value_parser = file::name())]
+    pub(crate) output: Name,
     /// sphere (default), spheres:N, plate4 or a model: FILE.obj, .gltf, .glb
     ///
     /// Spheres have a radius of 1. spheres:N is a row from rough to smooth; plate4 is the paper's: matt, mixed, mirror.

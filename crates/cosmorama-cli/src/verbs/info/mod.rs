@@ -13,8 +13,8 @@ use anyhow::Result;
 use cosmorama::circle::{Circle, Found};
 use cosmorama::raster::Transfer;
 use cosmorama_convert::{
-    Builtin, Files, ThinAlpha, ViewFiles, damage_of, existing_frames, face_set, is_one_file, light_of, likely, probe,
-    with_videos,
+    Builtin, Files, Name, ThinAlpha, ViewFiles, damage_of, existing_frames, face_set, is_one_file, light_of, likely,
+    probe, with_videos,
 };
 use cosmorama_io::{Choice, EnvMap, FacePattern, Header, ProfileFault, probe_chosen};
 use serde_json::{Value, json};
@@ -31,8 +31,8 @@ pub(super) fn run(args: &InfoArgs, console: &mut Console) -> Result<ExitCode> {
     let input = &kept.input(&args.input)?;
     let files = &*with_videos(kept.files());
     let report = if let Some(builtin) = Builtin::named(input)? {
-        json!({ "input": input, "projection": "any (a formula)", "shows": builtin.about() })
-    } else if FacePattern::parse(input).is_some() {
+        json!({ "input": &**input, "projection": "any (a formula)", "shows": builtin.about() })
+    } else if input.path().to_str().is_some() && FacePattern::parse(input).is_some() {
         faces_report(files, input, args.check)?
     } else if let Some(world) = world::report(files, (input, args.check), console)? {
         world
@@ -61,7 +61,7 @@ fn is_damaged(report: &Value) -> bool {
     }
 }
 
-fn single(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value> {
+fn single(inputs: &dyn Files, pattern: &Name, check: bool) -> Result<Value> {
     let files = ViewFiles::new(Path::new(pattern));
     if let Some(video) = files.video() {
         is_one_file(inputs, pattern, video)?;
@@ -73,7 +73,7 @@ fn single(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value> {
     }
     let header = probe_any(inputs, &files, frames.first().copied())?;
     if header.metadata.layers.no_picture.is_some() {
-        let mut report = json!({ "input": pattern });
+        let mut report = json!({ "input": &**pattern });
         if check || frames.is_empty() {
             add_damage(&mut report, damages(inputs, &files, &frames));
         }
@@ -83,7 +83,7 @@ fn single(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value> {
     }
     let reads_all = check || frames.is_empty();
     let likely = likely(inputs, &path, &header, reads_all);
-    let mut report = json!({ "input": pattern });
+    let mut report = json!({ "input": &**pattern });
     if !check && frames.is_empty() && !likely.is_read {
         report["read"] = json!("its header alone; --check decodes it");
     }

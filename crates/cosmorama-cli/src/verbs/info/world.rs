@@ -3,7 +3,7 @@
 use anyhow::Result;
 use cosmorama::camera::{PixelPoint, View};
 use cosmorama::sphere::{Direction, Extent};
-use cosmorama_convert::{Files, InputView, Listed, MemoryBudget, existing_frames, listed};
+use cosmorama_convert::{Files, InputView, Listed, MemoryBudget, Name, existing_frames, listed};
 use serde_json::{Value, json};
 
 use super::{add_damage, damages};
@@ -13,7 +13,7 @@ use crate::console::Console;
 const DIRECTIONS: usize = 100_000;
 
 /// Returns the report on a world file or a Hugin project; `None` where an input is neither.
-pub(super) fn report(files: &dyn Files, (name, check): (&str, bool), console: &Console) -> Result<Option<Value>> {
+pub(super) fn report(files: &dyn Files, (name, check): (&Name, bool), console: &Console) -> Result<Option<Value>> {
     let mut warnings = Vec::new();
     let Some(list) = listed(name, files, MemoryBudget::new(None), &mut warnings)? else { return Ok(None) };
     warnings.iter().for_each(|warning| console.warn(warning));
@@ -24,7 +24,7 @@ pub(super) fn report(files: &dyn Files, (name, check): (&str, bool), console: &C
     let is_covered = |direction| all.iter().any(|view| holds(view, direction));
     let holes = sphere.iter().filter(|direction| !is_covered(**direction)).map(|direction| Extent::of(*direction));
     let mut report = json!({
-        "input": name,
+        "input": &**name,
         "projection": match views.len() { 1 => "a world of one view".to_owned(), count => format!("a world of {count} views") },
         "covers": percent(share(&sphere, is_covered)),
     });

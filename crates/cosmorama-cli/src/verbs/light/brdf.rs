@@ -83,7 +83,7 @@ fn overflowed(table: &Image<Rgba>, depth: Depth) -> usize {
 fn report(args: &BrdfArgs, table: &Image<Rgba>, overflowed: usize) -> Result<String> {
     let largest = table.pixels().iter().flat_map(|cell| [cell.0[0], cell.0[1]]).fold(0.0, f32::max);
     let json = json!({
-        "output": args.output,
+        "output": args.output.display().to_string(),
         "size": args.size,
         "lobe": args.lobe.name(),
         "multiscatter": args.multiscatter,

@@ -134,7 +134,7 @@ pub(super) fn missed(SeriesAccuracy { rms_error, least, negative }: SeriesAccura
 fn report(args: &HarmonicsArgs, found: &WorldHarmonics, kind: HarmonicKind) -> Result<String> {
     let LightFigures { mean, peak, suns, shown } = found.light;
     let json = json!({
-        "output": args.output,
+        "output": args.output.display().to_string(),
         "order": args.order,
         "basis": args.basis.name(),
         "kind": name(kind),

@@ -106,7 +106,7 @@ fn level(lobe: LobeName, alpha: f64) -> Result<LightLevel> {
 
 /// Makes maps, and reports the result.
 fn make(mut map: MapArgs, light: LightSettings, console: &mut Console) -> Result<ExitCode> {
-    if map.output == "-" {
+    if *map.output == *"-" {
         return Err(usage("maps of light are files; name one, as in light.exr"));
     }
     let mut kept = KeptStreams::default();

@@ -145,7 +145,7 @@ fn of_frame(Found { frame, output, suns: found }: &Found) -> Value {
         })
     };
     let mut json = json!({
-        "output": output,
+        "output": output.as_ref().map(|output| output.display().to_string()),
         "suns": found.suns.all().iter().map(sun).collect::<Vec<_>>(),
         "energy_in": found.light.mean,
         "energy_out": found.left.mean,

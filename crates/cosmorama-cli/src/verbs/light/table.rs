@@ -178,7 +178,7 @@ fn write_picture(args: &TableArgs, format: Format, image: &Image<Rgba>, console:
 fn report(args: &TableArgs, table: &ColourTable, overflowed: usize) -> Result<String> {
     let peak = table.stops().iter().flat_map(|(_, colour)| colour).copied().fold(0.0, f64::max);
     let json = json!({
-        "output": args.output,
+        "output": args.output.display().to_string(),
         "colours": table.stops().len(),
         "energy_out": table.mean(),
         "peak_out": peak,

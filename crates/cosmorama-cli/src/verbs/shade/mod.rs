@@ -90,7 +90,7 @@ pub(super) fn run(args: ShadeArgs, console: &mut Console) -> Result<ExitCode> {
     if args.json {
         let cpu = json!({ "decode": read, "light": lit, "filter": shaded, "encode": written });
         let report = json!({
-            "inputs": worlds.iter().map(|world| world.name.as_str()).collect::<Vec<_>>(),
+            "inputs": worlds.iter().map(|world| &*world.name).collect::<Vec<_>>(),
             "outputs": frames.iter().map(|frame| frame.path.display().to_string()).collect::<Vec<_>>(),
             "wall_seconds": start.elapsed().as_secs_f64(),
             "cpu_seconds": cpu,

@@ -23,7 +23,7 @@ impl Output {
     /// Checks that the format can hold what is asked for.
     pub(super) fn check(args: &ShadeArgs) -> Result<Self> {
         let path = Path::new(&args.output);
-        if args.output == "-" {
+        if *args.output == *"-" {
             return Err(usage("pictures of things are files; name one, as in ball.png"));
         }
         let format = Format::from_extension(path).map_err(|error| usage(error.to_string()))?;

@@ -16,7 +16,7 @@ pub(super) struct Frame {
 /// Lists the pictures that are made: one, or those of a whole turn.
 pub(super) fn frames(args: &ShadeArgs) -> Result<Vec<Frame>> {
     let Some(count) = args.turntable else {
-        return Ok(vec![Frame { path: args.output.clone().into(), turn: Angle::from_degrees(0.0) }]);
+        return Ok(vec![Frame { path: args.output.path().to_owned(), turn: Angle::from_degrees(0.0) }]);
     };
     let Some(pattern) = FramePattern::parse(&args.output) else {
         return Err(usage(format!(

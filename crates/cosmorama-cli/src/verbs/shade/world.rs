@@ -7,7 +7,7 @@ use cosmorama::raster::{Image, Primaries, Rgba};
 use cosmorama::sphere::CubeFace;
 use cosmorama::world::World;
 use cosmorama_builtin::BuiltinWorld;
-use cosmorama_convert::{Builtin, Conversion, GeometrySettings, Radiance, WorldLight};
+use cosmorama_convert::{Builtin, Conversion, GeometrySettings, Name, Radiance, WorldLight};
 use cosmorama_io::FrameList;
 use cosmorama_spec::Spec;
 
@@ -31,7 +31,7 @@ const EDGE: usize = 1024;
 
 /// A world as it was asked for.
 pub(super) struct Asked<'a> {
-    pub(super) name: &'a str,
+    pub(super) name: &'a Name,
     pub(super) from: Option<Spec>,
     pub(super) frames: Option<FrameList>,
 }
@@ -39,7 +39,7 @@ pub(super) struct Asked<'a> {
 impl WorldInput {
     /// Finds the world's files and reads their headers.
     pub(super) fn check(asked: Asked, args: &ShadeArgs, console: &mut Console) -> Result<Self> {
-        if asked.name == NONE {
+        if **asked.name == *NONE {
             return without(args);
         }
         match Builtin::named(asked.name)? {

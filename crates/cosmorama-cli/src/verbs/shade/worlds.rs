@@ -1,7 +1,7 @@
 use std::path::PathBuf;
 
 use anyhow::{Result, anyhow};
-use cosmorama_convert::Radiance;
+use cosmorama_convert::{Name, Radiance};
 use cosmorama_scene::{Located, NamedWorld, Proxy};
 use cosmorama_spec::{Spec, did_you_mean};
 
@@ -13,7 +13,7 @@ use crate::failure::{message, usage};
 
 /// A world that things stand under, checked but not read.
 pub(super) struct Under {
-    pub(super) name: String,
+    pub(super) name: Name,
     pub(super) input: WorldInput,
     pub(super) proxy: Option<Proxy>,
 }
@@ -30,11 +30,12 @@ pub(super) fn worlds(args: &ShadeArgs, things: &mut Things, console: &mut Consol
         worlds.push(of_file(world, args, console)?);
     }
     for part in &args.part {
-        let known = worlds.iter().position(|world| world.name == part.world);
+        let world = Name::from(&part.world);
+        let known = worlds.iter().position(|under| under.name == world);
         let number = known.unwrap_or(worlds.len());
         if known.is_none() {
-            let input = WorldInput::check(Asked { name: &part.world, from: None, frames: None }, args, console)?;
-            worlds.push(Under { name: part.world.clone(), input, proxy: None });
+            let input = WorldInput::check(Asked { name: &world, from: None, frames: None }, args, console)?;
+            worlds.push(Under { name: world, input, proxy: None });
         }
         give(things, &part.name, number)?;
     }
@@ -46,10 +47,11 @@ fn of_file(world: &NamedWorld, args: &ShadeArgs, console: &mut Console) -> Resul
         spec.text.parse().map_err(|error| anyhow!("{}: spec = \"{}\": {error}", spec.place, spec.text))
     };
     let from = world.spec.as_ref().map(spec).transpose()?;
-    let asked = Asked { name: &world.image.text, from, frames: None };
+    let name = Name::from(&world.image.text);
+    let asked = Asked { name: &name, from, frames: None };
     let placed = |error| anyhow!("{}: {}", world.image.place, message(&error));
     let input = WorldInput::check(asked, args, console).map_err(placed)?;
-    Ok(Under { name: world.image.text.clone(), input, proxy: world.proxy })
+    Ok(Under { name, input, proxy: world.proxy })
 }
 
 /// Puts the things of a name under a world.

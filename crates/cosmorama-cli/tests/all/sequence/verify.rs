@@ -167,3 +167,58 @@ fn what_is_no_sequence_is_refused() {
     assert_says(&said, &["first frame is 1 and the last 4000000000", "--frames 1-100"]);
     assert_says(&bench.fail(2, &["verify", "dome_#.png", "--every", "3"]), &["--sheet"]);
 }
+
+/// Frames of a video are read as those of a sequence are, and numbered from 0.
+#[cfg(feature = "video")]
+#[test]
+fn frames_of_a_video_are_verified() {
+    use super::films::{ffmpeg, has_ffmpeg};
+    if !has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    for (frame, grey) in (0..).zip(GREYS) {
+        bench.save(&format!("in_{frame:02}.png"), &flat(64, 32, &[if frame == 2 { 0 } else { grey }; 3]));
+    }
+    let codec = ["-c:v", "ffv1", "-pix_fmt", "bgr0", "-g", "1", "-slicecrc", "1"];
+    ffmpeg(&bench, &[&["-framerate", "25", "-i", "in_%02d.png"][..], &codec, &["film.mkv"]].concat());
+    let verify = |more: &[&str]| -> (Option<i32>, String) {
+        let output = bench.run(&[&["verify", "--progress", "none"], more].concat());
+        (output.status.code(), text(&output.stdout) + &text(&output.stderr))
+    };
+    let (code, told) = verify(&["film.mkv"]);
+    assert_eq!(code, Some(1));
+    assert_says(
+        &told,
+        &["black: 2\n", "equal to the frame before: 5\n", "far from both neighbours: 2,10\n", "faults: 2,5,10\n"],
+    );
+    assert_eq!(verify(&["film.mkv", "--frames", "6-9"]), (Some(0), "4 frames are whole and alike\n".to_owned()));
+    let (code, told) = verify(&["film.mkv", "--frames", "6-8,12-13"]);
+    assert_eq!((code, told.as_str()), (Some(1), "missing: 12,13\n2 of 5 frames have faults: 12,13\n"));
+    assert_says(&verify(&["film.mkv", "--frames", "6-9", "--size", "99"]).1, &["of size 64x32 instead of 99"]);
+    // Damage within a frame, and a file that is cut off: the frames are named, and those between are judged.
+    let whole = bench.bytes("film.mkv");
+    let mut damaged = whole.clone();
+    let middle = whole.len() * 8 / 12;
+    damaged[middle..middle + 20].fill(0x5a);
+    std::fs::write(bench.path("damaged.mkv"), damaged).unwrap();
+    let report: Value = serde_json::from_slice(&bench.run(&["verify", "damaged.mkv", "--json"]).stdout).unwrap();
+    let faults: Vec<(u64, &str)> = report["faults"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|fault| (fault["frame"].as_u64().unwrap(), fault["fault"].as_str().unwrap()))
+        .collect();
+    let broken: Vec<u64> = faults.iter().filter(|(_, fault)| *fault == "damaged").map(|(frame, _)| *frame).collect();
+    assert!(matches!(broken[..], [6..=8]), "{faults:?}");
+    assert!(faults.contains(&(2, "black")) && faults.contains(&(10, "flash")), "{faults:?}");
+    std::fs::write(bench.path("cut.mkv"), &whole[..whole.len() * 2 / 3]).unwrap();
+    let (code, told) = verify(&["cut.mkv", "--frames", "0-11"]);
+    assert_eq!(code, Some(1));
+    assert_says(&told, &["black: 2\n", "damaged (File ended prematurely): 7-11\n"]);
+    // The sheet shows its frames, and never replaces it.
+    verify(&["film.mkv", "--sheet", "sheet.png", "--every", "4"]);
+    assert_eq!(bench.load("sheet.png").width(), 2 * 64 + 4);
+    let (code, told) = verify(&["film.mkv", "--sheet", "film.mkv", "-y"]);
+    assert!(code == Some(2) && bench.bytes("film.mkv") == whole, "{told}");
+}

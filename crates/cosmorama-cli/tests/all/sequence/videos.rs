@@ -354,6 +354,48 @@ fn times_choose_frames_of_a_variable_rate() {
     );
 }
 
+/// Seconds from a video's first frame to the first loud sample of its sound.
+fn click_of(bench: &Bench, video: &str) -> f64 {
+    let began = |streams: &str| -> f64 {
+        let told = said(bench, video, streams, "stream=start_time");
+        told.trim().rsplit('=').next().unwrap().lines().next().unwrap().parse().unwrap()
+    };
+    ffmpeg(bench, &["-i", video, "-map", "0:a", "-ac", "1", "-ar", "48000", "-f", "f32le", "sound.raw"]);
+    let bytes = bench.bytes("sound.raw");
+    let samples = bytes.chunks_exact(4).map(|sample| f32::from_le_bytes(sample.try_into().unwrap()));
+    let loud = samples.enumerate().find(|(_, sample)| sample.abs() > 0.4).expect("a click").0;
+    began("a") + loud as f64 / 48000.0 - began("v")
+}
+
+/// Sound of a part begins where the part does, by the times of its frames.
+#[test]
+fn sound_of_a_variable_rate_begins_with_its_part() {
+    if !has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    // Frames at 0, 0.04, 0.16, 0.36, 0.64, 1, 1.44, 1.96, 2.56, 3.24, 4 and 4.84 seconds, and a click at 2.1.
+    let pictures = "testsrc2=size=64x32:rate=25,trim=end_frame=12,setpts=N*N/25/TB";
+    let click = "aevalsrc='if(between(t,2.1,2.12),0.9,0)':s=48000:d=5";
+    let inputs = ["-f", "lavfi", "-i", pictures, "-f", "lavfi", "-i", click];
+    let coded = ["-fps_mode", "vfr", "-c:v", "ffv1", "-pix_fmt", "bgr0", "-c:a", "pcm_s16le"];
+    ffmpeg(&bench, &[&inputs[..], &coded, &["film.mkv"]].concat());
+    let coded = ["-fps_mode", "vfr", "-c:v", "mpeg4", "-q:v", "1", "-g", "4", "-c:a", "alac"];
+    ffmpeg(&bench, &[&inputs[..], &coded, &["film.mp4"]].concat());
+    let begins = [0.0, 0.04, 0.16, 0.36, 0.64, 1.0, 1.44, 1.96];
+    for film in ["film.mkv", "film.mp4"] {
+        assert!((click_of(&bench, film) - 2.1).abs() < 0.001, "{film}");
+        for (first, last) in [(0, 11), (0, 8), (3, 9), (5, 8), (7, 11)] {
+            let (frames, part) = (format!("{first}-{last}"), format!("part_{first}_{film}"));
+            convert(&bench, [film, &part], &["--frames", &frames, "-y"]);
+            let (found, expected) = (click_of(&bench, &part), 2.1 - begins[first]);
+            // Packets of sound are copied whole, each at its own time.
+            assert!((found - expected).abs() < 0.002, "{film} {frames}: {found} s instead of {expected}");
+            assert_says(&said(&bench, &part, "v", "stream=nb_read_frames"), &[&format!("={}\n", last - first + 1)]);
+        }
+    }
+}
+
 #[test]
 fn settings_of_videos_are_checked_before_work() {
     if !has_ffmpeg() {

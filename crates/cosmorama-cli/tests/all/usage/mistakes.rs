@@ -146,16 +146,17 @@ fulldome takes
     assert_eq!(message, expected);
 }
 
-/// File names are text here: what is none is named, with a remedy.
+/// Values of options are text, but for files: what is none is named, with a remedy.
 #[cfg(unix)]
 #[test]
-fn a_name_that_is_no_text_is_named() {
+fn a_value_that_is_no_text_is_named() {
     use std::os::unix::ffi::OsStrExt as _;
     let bench = Bench::new();
-    let name = std::ffi::OsStr::from_bytes(b"sky\xff.png");
-    let output = bench.command(&["convert"]).arg(name).args(["out.png", "--to", "fulldome"]).output().unwrap();
+    let name = std::ffi::OsStr::from_bytes(b"sky\xff.csv");
+    let output =
+        bench.command(&["convert", "a.png", "out.png", "--to", "fulldome", "--path"]).arg(name).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
-    assert_says(&crate::bench::text(&output.stderr), &["sky\u{fffd}.png", "no text in UTF-8", "rename it"]);
+    assert_says(&crate::bench::text(&output.stderr), &["sky\u{fffd}.csv", "no text in UTF-8", "rename it"]);
 }
 
 /// What a file system allows, a name may hold: blanks, quotes, ends of lines, a dash in front.

@@ -26,14 +26,14 @@ use crate::job::gaps::{Shot, find_gaps};
 use crate::job::options::filter;
 use crate::settings::{GeometrySettings, LimitSettings};
 use crate::source::video::DamagedFrames;
-use crate::source::{Access, ChosenFiles, DecodedPicture, Disk, Files, MemoryBudget};
+use crate::source::{Access, ChosenFiles, DecodedPicture, Disk, Files, MemoryBudget, Name};
 use crate::target::{Movement, Picture, TargetView, aspect, time};
 
 /// Settings of an explanation, possibly for an input that does not exist yet.
 #[derive(Clone, Debug)]
 pub struct ExplanationSettings {
     /// Input, if there is one.
-    pub input: Option<String>,
+    pub input: Option<Name>,
     /// Assumed size of the input, or of each face, if it does not exist yet. By default, as fine as the output at its centre.
     pub input_size: Option<Size>,
     /// Projections, size, orientation and filter. Of a moving camera, pictures are those of the first frame.
@@ -115,7 +115,7 @@ impl ExplanationSettings {
         let choice = Choice { without_picture: true, ..Choice::default() };
         let files = ChosenFiles::new(Arc::clone(&self.files), choice, DamagedFrames::default());
         let access = Access { files: &files, memory, decoded: &DecodedPicture::default() };
-        let geometry = &settled(&self.geometry, self.input.as_deref(), access, warnings)?;
+        let geometry = &settled(&self.geometry, self.input.as_ref(), access, warnings)?;
         if geometry.to.is_none() {
             let example = format!("{TO} omnimax");
             return Err(usage_as(

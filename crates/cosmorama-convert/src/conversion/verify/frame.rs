@@ -67,6 +67,7 @@ impl Frame {
                 Found::Picture(Picture { settings, ..Picture::of(&file.image, &file.image.to_light(&transfer), shows) })
             }
             Err(IoError::Open { source, .. }) if source.kind() == ErrorKind::NotFound => Found::Nothing,
+            Err(IoError::LeftOut { .. }) => Found::Damage("its decoder has no such frame".to_owned()),
             Err(error) if is_of_system(&error) => return Err(error.into()),
             Err(error) => Found::Damage(error.to_string()),
         };

@@ -1,4 +1,4 @@
-//! Verification of a sequence's frames: which are missing, damaged, of another kind, black, frozen, or flash.
+//! Verification of the frames of a sequence or a video: which are missing, damaged, of another kind, black, frozen, or flash.
 
 mod frame;
 mod judge;
@@ -6,18 +6,21 @@ mod sheet;
 
 use std::ops::ControlFlow;
 use std::path::Path;
+use std::sync::Arc;
 
 use cosmorama::raster::{Image, Rgba};
-use cosmorama_io::{FrameList, FramePattern, Limits};
+use cosmorama_io::{Choice, FrameList, Limits};
 use cosmorama_spec::Size;
 use rayon::prelude::*;
 
 use super::{Observer, Stop, threads};
 use crate::diagnostic::{ConvertError, EVERY, FRAMES, Result, bail, usage};
+use crate::input::is_one_file;
 use crate::job::real_path;
 use crate::settings::LimitSettings;
-use crate::source::{Files, MemoryBudget, ViewFiles, existing_frames, light_bytes, probe};
-use frame::Frame;
+use crate::source::video::{DamagedFrames, Videos};
+use crate::source::{ChosenFiles, Files, MemoryBudget, Name, ViewFiles, existing_frames, light_bytes, probe};
+use frame::{Found, Frame};
 
 pub use judge::{Fault, Faults};
 pub use sheet::SheetLayout;
@@ -25,8 +28,8 @@ pub use sheet::SheetLayout;
 /// Sequence to verify.
 #[derive(Clone, Debug)]
 pub struct Verification<'a> {
-    /// Pattern of the frames' names, such as `dome_####.png`.
-    pub pattern: &'a str,
+    /// Pattern of the frames' names, such as `dome_####.png`, or a video.
+    pub pattern: &'a Name,
     /// Frames that there should be; all from the first to the last, if not given.
     pub frames: Option<FrameList>,
     /// Size that they should have; that of most, if not given.
@@ -68,42 +71,53 @@ impl Verification<'_> {
     /// Reads every frame, and judges it by itself and beside its neighbours.
     ///
     /// # Errors
-    /// When the pattern has no frame marker or leaves a face, an eye or a level open, its folder or all its frames are missing, the
-    /// first and the last are too far apart, a frame may not be read or needs more memory than permitted, or the sheet does;
+    /// When the pattern is no video and has no frame marker, or leaves a face, an eye or a level open; its folder or all its frames are
+    /// missing; the first and the last are too far apart; a frame may not be read or needs more memory than permitted, or the sheet does;
     /// [`ConvertError::Stopped`] if the observer ends it.
-    pub fn run(&self, files: &dyn Files, observer: &mut dyn Observer) -> Result<Verified> {
-        let pattern = sequence(self.pattern)?;
-        let wanted = self.wanted(&pattern, files)?;
+    pub fn run(&self, files: Arc<dyn Files>, observer: &mut dyn Observer) -> Result<Verified> {
+        // A decoder goes on after a frame that it leaves out.
+        let files = &ChosenFiles::new(files, Choice::default(), DamagedFrames::Skip);
+        let series = series(self.pattern)?;
+        let wanted = self.wanted(&series, files)?;
+        let video = series.video().zip(files.videos());
+        let count = video.map_or(Ok(None), |(video, videos)| videos.count(video))?;
         let memory = self.memory_beside(wanted.len())?;
         let (pool, limits) = (threads(self.limits.threads)?, Limits::memory(memory.bytes));
-        observer.begin(wanted.len());
+        observer.begin(Some(wanted.len()));
         let mut frames: Vec<Frame> = Vec::with_capacity(wanted.len());
         let mut rest = &wanted[..];
         while !rest.is_empty() {
             let first = frames.len();
-            let (some, later) = rest.split_at(fitting(files, &pattern, rest, memory)?);
+            let (some, later) = rest.split_at(fitting(files, &series, rest, memory)?);
             let read = |(index, number): (usize, &u64)| {
+                if count.is_some_and(|count| *number >= count) {
+                    return Ok(Frame { number: *number, found: Found::Nothing });
+                }
                 let is_shown = self.sheet.is_some_and(|sheet| sheet.shows(first + index));
-                Frame::read(files, (*number, &pattern.path(*number)), &limits, is_shown)
+                Frame::read(files, (*number, &series.path(Some(*number))), &limits, is_shown)
             };
             // All of them, so that the first in order is told of, whichever thread is the fastest.
             let found: Vec<Result<Frame>> = pool.install(|| some.par_iter().enumerate().map(read).collect());
             for (number, frame) in some.iter().zip(found) {
                 frames.push(frame?);
                 if observer.frame_done(Some(*number)) == ControlFlow::Break(Stop) {
-                    return Err(ConvertError::Stopped { done: frames.len(), frames: wanted.len() });
+                    return Err(ConvertError::Stopped { done: frames.len(), frames: Some(wanted.len()) });
                 }
             }
             rest = later;
+        }
+        if let Some((video, videos)) = video {
+            tell_reasons(&mut frames, video, videos)?;
         }
         let sheet = self.sheet.map(|_| sheet::of(frames.iter().filter_map(Frame::thumbnail)));
         Ok(Verified { frames: frames.len(), faults: judge::faults(&frames, self.size), sheet })
     }
 
     /// Returns the frames that there should be, in order.
-    fn wanted(&self, pattern: &FramePattern, files: &dyn Files) -> Result<Vec<u64>> {
+    fn wanted(&self, series: &ViewFiles, files: &dyn Files) -> Result<Vec<u64>> {
         let mut wanted = self.frames.as_ref().map_or_else(Vec::new, |frames| frames.frames().to_vec());
         wanted.sort_unstable();
+        let ViewFiles::Sequence(pattern) = series else { return self.wanted_of_video(series, wanted, files) };
         let (folder, text) = (pattern.folder(), self.pattern);
         if !folder.is_dir() && !wanted.iter().any(|frame| files.holds(&pattern.path(*frame))) {
             bail!(NotFound: "{text}: there is no folder {}; name one that holds frames", folder.display());
@@ -111,7 +125,7 @@ impl Verification<'_> {
         if self.frames.is_some() {
             return Ok(wanted);
         }
-        match existing_frames(&ViewFiles::Sequence(pattern.clone()), files)?[..] {
+        match existing_frames(series, files)?[..] {
             [first, .., last] if last - first >= MOST => Err(usage(format!(
                 "{text}: the first frame is {first} and the last {last}, too far apart for one sequence; move what does not belong \
                  to it, or choose frames, as in {FRAMES} {first}-{}",
@@ -120,6 +134,16 @@ impl Verification<'_> {
             [first, .., last] => Ok((first..=last).collect()),
             ref few => Ok(few.to_vec()),
         }
+    }
+
+    /// Returns the frames that a video should have, and says which will be read.
+    fn wanted_of_video(&self, series: &ViewFiles, wanted: Vec<u64>, files: &dyn Files) -> Result<Vec<u64>> {
+        let (Some(video), Some(videos)) = (series.video(), files.videos()) else { return Ok(wanted) };
+        is_one_file(files, self.pattern, video)?;
+        let there = existing_frames(series, files)?;
+        let wanted = if self.frames.is_some() { wanted } else { there.clone() };
+        videos.expect(video, wanted.iter().copied().filter(|frame| *frame < there.len() as u64))?;
+        Ok(wanted)
     }
 
     /// Checks that what is kept of so many frames fits into memory, and returns what is left to read them.
@@ -136,26 +160,39 @@ impl Verification<'_> {
     }
 }
 
-/// Returns the sequence of a pattern.
-fn sequence(pattern: &str) -> Result<FramePattern> {
+/// Returns the files of a pattern, or the video that it names.
+fn series(pattern: &Name) -> Result<ViewFiles> {
+    pattern.check()?;
     if let Some(name) = NAMES.into_iter().find(|name| pattern.contains(name)) {
         return Err(usage(format!(
             "{pattern} has {name}, but a sequence has one file for each frame; write a name there, and verify each by itself"
         )));
     }
     match ViewFiles::new(Path::new(pattern)) {
-        ViewFiles::Sequence(pattern) => Ok(pattern),
-        ViewFiles::One(_) | ViewFiles::Video(_) => Err(usage(format!(
+        ViewFiles::One(_) => Err(usage(format!(
             "{pattern} has no frame marker such as #### or %04d; write one where the frame number stands"
         ))),
+        series => Ok(series),
     }
 }
 
+/// Puts what the decoder of a video says of frames that it left out into their places.
+fn tell_reasons(frames: &mut [Frame], video: &Path, videos: &Videos) -> Result<()> {
+    let faults = videos.faults(video)?;
+    for frame in frames {
+        let reason = faults.iter().find(|(range, _)| range.contains(&frame.number)).map(|(_, reason)| reason);
+        if let (Found::Damage(told), Some(reason)) = (&mut frame.found, reason) {
+            told.clone_from(reason);
+        }
+    }
+    Ok(())
+}
+
 /// Returns how many of the next frames fit into memory at once when decoded.
-fn fitting(files: &dyn Files, pattern: &FramePattern, next: &[u64], memory: MemoryBudget) -> Result<usize> {
+fn fitting(files: &dyn Files, series: &ViewFiles, next: &[u64], memory: MemoryBudget) -> Result<usize> {
     let mut left = memory.bytes;
     for (count, frame) in next.iter().take(AT_ONCE).enumerate() {
-        let path = pattern.path(*frame);
+        let path = series.path(Some(*frame));
         // Nothing is decoded of a frame that is missing or damaged.
         let Ok(header) = probe(files, &path) else { continue };
         let bytes = light_bytes(&header);
@@ -176,14 +213,18 @@ fn fitting(files: &dyn Files, pattern: &FramePattern, next: &[u64], memory: Memo
 ///
 /// # Errors
 /// When the sheet's name is one of the sequence's, or leads to the file of a frame.
-pub fn check_sheet(pattern: &str, sheet: &Path) -> Result<()> {
-    let ViewFiles::Sequence(frames) = ViewFiles::new(Path::new(pattern)) else { return Ok(()) };
+pub fn check_sheet(pattern: &Name, sheet: &Path) -> Result<()> {
     let place = real_path(sheet);
+    let refused = || Err(usage(format!("{}: the sheet would replace a frame; choose another name", sheet.display())));
+    let frames = match ViewFiles::new(pattern.path()) {
+        ViewFiles::Sequence(frames) => frames,
+        other => return if real_path(&other.path(None)) == place { refused() } else { Ok(()) },
+    };
     let named = place.strip_prefix(real_path(&frames.folder())).ok().and_then(|below| frames.frame_at(below));
     // A frame may be a link to what is elsewhere.
     let leads = |frame: u64| real_path(&frames.path(frame)) == place;
     if named.is_some() || frames.existing().is_ok_and(|existing| existing.into_iter().any(leads)) {
-        return Err(usage(format!("{}: the sheet would replace a frame; choose another name", sheet.display())));
+        return refused();
     }
     Ok(())
 }

@@ -8,9 +8,8 @@ use crate::source::memory_budget::human;
 impl Engine<'_> {
     /// Returns the decisions about geometry and queues, with their reasons.
     pub(crate) fn decisions(&self) -> Vec<Decision> {
-        let frames = self.job.outputs.frames.len();
         let mut told = vec![Decision::new(Topic::Geometry, self.of_geometry())];
-        if frames > 1 {
+        if self.job.outputs.are_many() {
             let QueueDepth { read, written, bytes } = self.queue_depth();
             let message = format!(
                 "{read} read and {written} made or written at once, as many as memory and threads permit; they take up to {}",
@@ -28,7 +27,7 @@ impl Engine<'_> {
     /// Returns the memory that the run needs in all, about and at most.
     pub(crate) fn estimated_bytes(&self) -> u64 {
         let (job, threads) = (self.job, rayon::current_num_threads());
-        if job.outputs.frames.len() <= 1 {
+        if !job.outputs.are_many() {
             return job.estimated_bytes(threads);
         }
         let geometry = lock(&self.posed).as_ref().map_or(0, |posed| posed.geometry.bytes());
@@ -45,7 +44,7 @@ impl Engine<'_> {
         let posed = lock(&self.posed);
         match posed.as_ref().map(|posed| (posed.geometry.kept(), posed.geometry.bytes())) {
             None => "computed for each pose of the moving camera, and kept while it stands still".to_owned(),
-            Some((0, _)) if job.outputs.frames.len() > 1 => {
+            Some((0, _)) if job.outputs.are_many() => {
                 "computed anew for each frame: the filter has no plan, or memory is short".to_owned()
             }
             Some((0, _)) => "computed with the picture, and not kept, because it is the only one".to_owned(),

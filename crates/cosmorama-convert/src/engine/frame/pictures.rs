@@ -68,8 +68,7 @@ impl<'a> Engine<'a> {
         let (posed, told, geometry) = if job.movement.is_some() {
             (None, Vec::new(), bytes_while_moving(job))
         } else {
-            let (posed, told) =
-                Posed::new(job, (None, job.target.views.clone(), job.outputs.frames.len() > 1), progress)?;
+            let (posed, told) = Posed::new(job, (None, job.target.views.clone(), job.outputs.are_many()), progress)?;
             let bytes = posed.geometry.bytes();
             (Some(Arc::new(posed)), told, bytes)
         };
@@ -419,7 +418,7 @@ impl<'a> Engine<'a> {
 
     /// Creates the error of a stopped frame, as if no frame were done: the caller knows how many are.
     pub(super) fn stopped(&self) -> ConvertError {
-        ConvertError::Stopped { done: 0, frames: self.job.outputs.frames.len() }
+        ConvertError::Stopped { done: 0, frames: self.job.outputs.count() }
     }
 
     /// Returns whether no texels are missing and every pixel has a view.
@@ -532,5 +531,5 @@ fn counted(pixels: usize, one: &str, several: &str) -> String {
 /// of its own. It is 0 for a single picture, after which no other would use the memory.
 fn pool_bytes(job: &ConvertJob, queue_depth: QueueDepth) -> u64 {
     let FrameNeeds { light, prepared, .. } = job.frame_needs();
-    if job.outputs.frames.len() > 1 { queue_depth.bytes.saturating_sub(light).saturating_sub(prepared) } else { 0 }
+    if job.outputs.are_many() { queue_depth.bytes.saturating_sub(light).saturating_sub(prepared) } else { 0 }
 }

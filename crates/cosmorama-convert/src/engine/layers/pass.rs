@@ -157,6 +157,6 @@ impl LayerPass<'_> {
             let light = WorldLight { texels: light, tables, has_holes: true };
             self.posed.geometry.light(index, watched, light, Rgba::TRANSPARENT, self.pool, &mut balanced)
         };
-        made.map_err(|Stopped| ConvertError::Stopped { done: 0, frames: job.outputs.frames.len() })
+        made.map_err(|Stopped| ConvertError::Stopped { done: 0, frames: job.outputs.count() })
     }
 }

@@ -14,18 +14,18 @@ use crate::diagnostic::{Code, Diagnostic, InPlace, Result, SIZE, TO, failure, us
 use crate::input::{Input, InputView, Listed};
 use crate::packing::Place;
 use crate::settings::GeometrySettings;
-use crate::source::{Access, ViewFiles};
+use crate::source::{Access, Name, ViewFiles};
 
 /// Degrees over which pictures of a project blend.
 const FEATHER: f64 = 3.0;
 
 /// Returns whether an input names a Hugin project.
-pub(crate) fn is_project(pattern: &str) -> bool {
+pub(crate) fn is_project(pattern: &Name) -> bool {
     Path::new(pattern).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("pto"))
 }
 
 /// Finds and probes the pictures of a project.
-pub(crate) fn find(name: &str, access: Access, warnings: &mut Vec<Diagnostic>) -> Result<Input> {
+pub(crate) fn find(name: &Name, access: Access, warnings: &mut Vec<Diagnostic>) -> Result<Input> {
     let project = access.read_project(Path::new(name))?;
     let told = |warning| Diagnostic::warning(Code::Project, format!("{name}: {warning}")).about(name);
     warnings.extend(project.warnings.iter().map(told));
@@ -36,7 +36,7 @@ pub(crate) fn find(name: &str, access: Access, warnings: &mut Vec<Diagnostic>) -
 }
 
 /// Returns each picture of a project by itself.
-pub(crate) fn listed(name: &str, access: Access, warnings: &mut Vec<Diagnostic>) -> Result<Vec<Listed>> {
+pub(crate) fn listed(name: &Name, access: Access, warnings: &mut Vec<Diagnostic>) -> Result<Vec<Listed>> {
     let images = access.read_project(Path::new(name))?.images;
     let views = find(name, access, warnings)?.worlds.into_iter().flatten();
     let list = |(image, view): (PtoImage, InputView)| Listed {
@@ -49,7 +49,7 @@ pub(crate) fn listed(name: &str, access: Access, warnings: &mut Vec<Diagnostic>)
 }
 
 /// Completes projection and size from a project's p-line, where they are not given.
-pub(crate) fn complete(input: &str, geometry: &GeometrySettings, access: Access) -> Result<GeometrySettings> {
+pub(crate) fn complete(input: &Name, geometry: &GeometrySettings, access: Access) -> Result<GeometrySettings> {
     let mut geometry = geometry.clone();
     if !is_project(input) || geometry.to.is_some() {
         return Ok(geometry);

@@ -18,7 +18,7 @@ use crate::input::spec_files::calibration::read_calibrations;
 use crate::input::spec_files::st_map;
 use crate::input::{Builtin, Input, InputView, Listed};
 use crate::settings::{Backdrop, PoseFile};
-use crate::source::{Access, DecodedPicture, Files, MemoryBudget};
+use crate::source::{Access, DecodedPicture, Files, MemoryBudget, Name};
 
 /// A world file as written.
 #[derive(Deserialize)]
@@ -67,7 +67,7 @@ struct Entry {
 
 /// Text and name of a world file, for messages with places.
 struct Text<'a> {
-    name: &'a str,
+    name: &'a Name,
     text: &'a str,
     /// Places at which lines end.
     ends: Vec<usize>,
@@ -90,13 +90,13 @@ fn in_words(message: &str) -> String {
 const SPEC_KEY: &str = "spec =";
 
 /// Returns whether an input names a world file.
-pub(crate) fn is_world_file(pattern: &str) -> bool {
+pub(crate) fn is_world_file(pattern: &Name) -> bool {
     Path::new(pattern).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
 }
 
 /// Finds and probes the files of all views of a world file.
 pub(crate) fn find(
-    name: &str,
+    name: &Name,
     wanted: Option<&FrameList>,
     access: Access,
     warnings: &mut Vec<Diagnostic>,
@@ -114,7 +114,7 @@ pub(crate) fn find(
 
 /// Returns each view of a world file by itself.
 pub(crate) fn listed(
-    name: &str,
+    name: &Name,
     wanted: Option<&FrameList>,
     access: Access,
     warnings: &mut Vec<Diagnostic>,
@@ -145,7 +145,7 @@ pub(crate) fn listed(
 }
 
 /// Returns the layers of a world file, the nearest first; none where an input is no world file, or one of views.
-pub(crate) fn layers(name: &str, files: &dyn Files) -> Result<Vec<Backdrop>> {
+pub(crate) fn layers(name: &Name, files: &dyn Files) -> Result<Vec<Backdrop>> {
     if !is_world_file(name) {
         return Ok(Vec::new());
     }
@@ -155,7 +155,7 @@ pub(crate) fn layers(name: &str, files: &dyn Files) -> Result<Vec<Backdrop>> {
     source.layers(&source.parse()?)
 }
 
-fn read(name: &str, access: Access) -> Result<String> {
+fn read(name: &Name, access: Access) -> Result<String> {
     let cannot_open = |error| failed_as(of_opening(&error), format!("cannot open the world file {name}: {error}"));
     let bytes = access.read_most(Path::new(name), LONGEST + 1).map_err(cannot_open)?;
     if bytes.len() as u64 > LONGEST {
@@ -167,9 +167,9 @@ fn read(name: &str, access: Access) -> Result<String> {
 
 impl Layer {
     fn backdrop(&self, source: &Text, is_first: bool) -> Result<Backdrop> {
-        let beside = |name: &str| source.folder().join(name).to_string_lossy().into_owned();
+        let beside = |name: &str| Name::from(source.folder().join(name));
         let image = self.image.get_ref();
-        let input = if Builtin::named(image)?.is_some() { image.clone() } else { beside(image) };
+        let input = if Builtin::named(image)?.is_some() { image.into() } else { beside(image) };
         let spec = |spec: &Spanned<String>| {
             let text = spec.get_ref();
             let wrong = |error| source.error(Some(spec.span()), &format!("spec = \"{text}\": {error}"));
@@ -193,8 +193,11 @@ impl Layer {
         if let (Some(number), Some(given)) = (fps.filter(|fps| !(fps.is_finite() && *fps > 0.0)), &self.fps) {
             return Err(source.error(Some(given.span()), &format!("fps = {number}: expected a number more than 0")));
         }
-        let poses =
-            |path: &Spanned<String>| PoseFile { file: beside(path.get_ref()), fps, smoothness: Smoothness::default() };
+        let poses = |path: &Spanned<String>| PoseFile {
+            file: beside(path.get_ref()).to_string(),
+            fps,
+            smoothness: Smoothness::default(),
+        };
         Ok(Backdrop {
             from: self.spec.as_ref().map(spec).transpose()?,
             frames: self.frames.as_ref().map(frames).transpose()?.unwrap_or_default(),
@@ -218,7 +221,8 @@ impl Entry {
         let named = spec.as_ref().map_or_else(Vec::new, |spec| spec.files.clone());
         let spec = spec.map(|spec| st_map::read_map(spec, access)).transpose();
         let spec = spec.at(|| source.place(self.spec.as_ref().map(Spanned::span)))?;
-        let pattern = source.folder().join(self.image.get_ref()).to_string_lossy().into_owned();
+        let pattern = Name::from(source.folder().join(self.image.get_ref()));
+        pattern.check()?;
         if is_world_file(&pattern) {
             let message = format!("{pattern} is a world file itself; list its views here");
             return Err(source.error(Some(self.image.span()), &message));
@@ -293,7 +297,7 @@ impl Entry {
 }
 
 impl<'a> Text<'a> {
-    fn new(name: &'a str, text: &'a str) -> Self {
+    fn new(name: &'a Name, text: &'a str) -> Self {
         Self { name, text, ends: text.match_indices('\n').map(|(at, _)| at).collect() }
     }
 
@@ -324,7 +328,7 @@ impl<'a> Text<'a> {
     /// Returns the file and the line.
     fn place(&self, span: Option<Range<usize>>) -> String {
         let line = |span: Range<usize>| 1 + self.ends.partition_point(|end| *end < span.start);
-        span.map_or_else(|| self.name.to_owned(), |span| format!("{}, line {}", self.name, line(span)))
+        span.map_or_else(|| self.name.to_string(), |span| format!("{}, line {}", self.name, line(span)))
     }
 }
 

@@ -11,7 +11,7 @@ use crate::diagnostic::{Code, ConvertError, Diagnostic, FROM, Mark, Result, TO, 
 use crate::input::lists::hugin;
 use crate::input::spec_files::calibration::read_calibrations;
 use crate::settings::GeometrySettings;
-use crate::source::{Access, ViewFiles, wanted_frames};
+use crate::source::{Access, Name, ViewFiles, wanted_frames};
 
 /// Side of a conversion for which a map is given.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -32,7 +32,7 @@ struct Base {
 /// plain picture, and the output has the size of the map unless `--size` gives another.
 pub(crate) fn settled(
     geometry: &GeometrySettings,
-    input: Option<&str>,
+    input: Option<&Name>,
     access: Access,
     warnings: &mut Vec<Diagnostic>,
 ) -> Result<GeometrySettings> {
@@ -79,7 +79,7 @@ pub(crate) fn settled(
 }
 
 /// Applies a map alone: the output has the map's pixels, and is empty where the map has no place.
-fn apply_plainly(settled: &mut GeometrySettings, from: &StMapSpec, input: Option<&str>, access: Access) -> Result<()> {
+fn apply_plainly(settled: &mut GeometrySettings, from: &StMapSpec, input: Option<&Name>, access: Access) -> Result<()> {
     let Some(input) = input else { return Err(without_base(Side::Input)) };
     let pairs = read(&from.file, access)?;
     settled.size.get_or_insert_with(|| size_of(&pairs));
@@ -107,7 +107,7 @@ fn settle_to(
     settled: &mut GeometrySettings,
     to: &StMapSpec,
     from: Option<&Shape>,
-    input: Option<&str>,
+    input: Option<&Name>,
     access: Access,
 ) -> Result<()> {
     let pairs = read(&to.file, access)?;
@@ -176,7 +176,7 @@ fn other_side(shape: Option<&Shape>, side: Side) -> Result<Placement> {
 }
 
 /// Returns the size of the input's first picture.
-fn input_size(input: &str, access: Access) -> Result<(usize, usize)> {
+fn input_size(input: &Name, access: Access) -> Result<(usize, usize)> {
     let files = ViewFiles::new(Path::new(input));
     let first = wanted_frames::find(&files, access.files, None)?[0];
     Ok(canvas_size(&access.probe(&files.path(first))?))

@@ -1,5 +1,6 @@
 //! Stands in for videos in programs built without them: no file is taken for a video, so that none of this is ever called.
 
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -8,7 +9,7 @@ use cosmorama_io::pending::Unfinished;
 use cosmorama_io::{Header, ImageFile, IoError, Limits};
 use cosmorama_spec::{FrameRate, Spec};
 
-use super::{DamagedFrames, FrameName, RawFiles, VideoPlan};
+use super::{Coming, DamagedFrames, FrameName, PictureSink, RawFiles, VideoPlan};
 use crate::diagnostic::{Diagnostic, Result};
 
 /// Videos among the inputs: none.
@@ -40,8 +41,12 @@ impl Videos {
         Err(refusal(&name.video))
     }
 
-    pub(crate) fn count(&self, video: &Path) -> Result<u64, IoError> {
+    pub(crate) fn count(&self, video: &Path) -> Result<Option<u64>, IoError> {
         Err(refusal(video))
+    }
+
+    pub(crate) fn coming(&self, name: &FrameName, _: bool) -> Result<Coming, IoError> {
+        Err(refusal(&name.video))
     }
 
     pub(crate) fn rate(&self, video: &Path) -> Result<Option<FrameRate>, IoError> {
@@ -76,6 +81,10 @@ impl Videos {
         Ok(())
     }
 
+    pub(crate) fn faults(&self, video: &Path) -> Result<Vec<(Range<u64>, String)>, IoError> {
+        Err(refusal(video))
+    }
+
     pub(crate) fn complaints(&self) -> Vec<String> {
         Vec::new()
     }
@@ -93,7 +102,7 @@ impl MadeVideos {
     pub(crate) fn start(
         _: &[(PathBuf, (usize, usize))],
         _: (&VideoPlan, Option<&Videos>),
-        _: &Unfinished,
+        _: (Option<&PictureSink>, &Unfinished),
         _: &mut Vec<Diagnostic>,
     ) -> Result<Self> {
         Ok(Self)

@@ -1,3 +1,4 @@
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use super::is_video;
@@ -17,7 +18,7 @@ const BETWEEN: &str = ", frame ";
 impl FrameName {
     /// Reads the name of a frame; `None` for a file.
     pub(crate) fn parse(path: &Path) -> Option<Self> {
-        let (video, number) = path.to_str()?.rsplit_once(BETWEEN)?;
+        let (video, number) = parted(path)?;
         let (video, frame) = (PathBuf::from(video), number.parse().ok()?);
         is_video(&video).then_some(Self { video, frame })
     }
@@ -33,6 +34,21 @@ impl FrameName {
     pub(crate) fn file(path: &Path) -> PathBuf {
         Self::parse(path).map_or_else(|| path.to_owned(), |name| name.video)
     }
+}
+
+/// Parts a name into those of a video, which may be no UTF-8, and of a frame.
+#[cfg(unix)]
+fn parted(path: &Path) -> Option<(&OsStr, &str)> {
+    use std::os::unix::ffi::OsStrExt;
+    let bytes = path.as_os_str().as_bytes();
+    let at = bytes.windows(BETWEEN.len()).rposition(|part| part == BETWEEN.as_bytes())?;
+    Some((OsStr::from_bytes(&bytes[..at]), std::str::from_utf8(&bytes[at + BETWEEN.len()..]).ok()?))
+}
+
+#[cfg(not(unix))]
+fn parted(path: &Path) -> Option<(&OsStr, &str)> {
+    let (video, number) = path.to_str()?.rsplit_once(BETWEEN)?;
+    Some((OsStr::new(video), number))
 }
 
 #[cfg(all(test, feature = "video"))]

@@ -15,7 +15,7 @@ use cosmorama_video::{
 };
 
 use super::raw::{RawWriter, aside, foreign};
-use super::{DamagedFrames, RawKind, VideoPlan, Videos, described};
+use super::{DamagedFrames, PictureSink, RawKind, VideoPlan, Videos, described};
 use crate::diagnostic::{Code, Diagnostic, FPS, FRAMES, Result, VIDEO_CODEC, usage, usage_as};
 
 /// Videos that a conversion makes.
@@ -47,6 +47,15 @@ struct State {
 enum Encoder {
     Film(Box<VideoWriter>),
     Raw(Box<RawWriter>),
+}
+
+/// Video among the inputs, with the numbers of the frames that are shown.
+#[derive(Clone, Copy, Debug)]
+struct Shown<'a> {
+    info: &'a VideoInfo,
+    frames: &'a [u64],
+    /// Times of its frames, if the rate varies.
+    timeline: Option<&'a Timeline>,
 }
 
 /// Rate of a video when nothing else tells one.
@@ -81,7 +90,7 @@ impl MadeVideos {
     pub(crate) fn start(
         outputs: &[(PathBuf, (usize, usize))],
         (plan, videos): (&VideoPlan, Option<&Videos>),
-        unfinished: &Unfinished,
+        (sink, unfinished): (Option<&PictureSink>, &Unfinished),
         told: &mut Vec<Diagnostic>,
     ) -> Result<Self> {
         if outputs.is_empty() {
@@ -92,14 +101,17 @@ impl MadeVideos {
             info = videos.info(&shown.video)?;
             rate = rate.or(videos.rate(&shown.video)?);
         }
-        let source = info.as_ref().zip(plan.source.as_ref().map(|source| &source.frames[..]));
-        let (times, stamps) = times((rate, plan), source, told)?;
+        let timeline = info.as_ref().filter(|info| info.is_variable).map(timeline).transpose()?;
+        let frames = plan.source.as_ref().map(|source| &source.frames[..]);
+        let source =
+            info.as_ref().zip(frames).map(|(info, frames)| Shown { info, frames, timeline: timeline.as_ref() });
+        let (times, stamps) = times((rate, plan), source, told);
         let mut all = Vec::new();
         for (path, size) in outputs {
             let state =
                 |writer| State { writer: Some(writer), given: 0, early: BTreeMap::new(), left_out: BTreeSet::new() };
             if let Some(kind) = RawKind::of(path) {
-                let writer = RawWriter::create(kind, path, (*size, plan.depth, rate_of(times)), unfinished)?;
+                let writer = RawWriter::create(kind, path, (*size, plan.depth, rate_of(times)), (sink, unfinished))?;
                 let video = MadeVideo { times: Vec::new(), state: Mutex::new(state(Encoder::Raw(Box::new(writer)))) };
                 all.push((path.clone(), video));
                 continue;
@@ -111,12 +123,12 @@ impl MadeVideos {
                 depth: plan.depth,
                 has_alpha: plan.channels.has_alpha(),
                 colour,
-                hdr: source.map(|(info, _)| info.hdr).filter(|_| colour.is_hdr()).unwrap_or_default(),
+                hdr: source.map(|source| source.info.hdr).filter(|_| colour.is_hdr()).unwrap_or_default(),
                 spatial: described::tags(plan.to.as_ref()),
                 codec: codec(plan)?,
                 arguments: plan.settings.arguments.clone(),
                 source: carried(source, times, told),
-                frames: (plan.settings.damaged != DamagedFrames::Skip).then_some(plan.frames),
+                frames: plan.frames.filter(|_| plan.settings.damaged != DamagedFrames::Skip),
                 ..WriteSettings::new(*size, Ratio::ONE)
             };
             let writer = VideoWriter::create(&ffmpeg, path, settings, unfinished).map_err(foreign)?;
@@ -212,6 +224,34 @@ impl Encoder {
     }
 }
 
+impl Shown<'_> {
+    /// Returns the part of the video that is shown, in seconds from its first frame; `None` for all of it.
+    fn part(&self) -> Option<Range<f64>> {
+        let (first, last) = (*self.frames.first()?, *self.frames.last()?);
+        let announced = self.info.announced.map(|announced| announced.frames);
+        let count = self.timeline.and_then(Timeline::frames).or(announced);
+        let is_all = first == 0 && count.is_some_and(|count| last + 1 >= count);
+        (!is_all).then(|| self.seconds(first)..self.seconds(last + 1))
+    }
+
+    /// Returns when a frame begins, or the last one ends.
+    fn seconds(&self, frame: u64) -> f64 {
+        let even = 1.0 / self.info.rate.to_f64();
+        let Some(timeline) = self.timeline else { return frame as f64 * even };
+        let since = |time: i64| (time - timeline.time(0).unwrap_or_default()) as f64 * timeline.time_base().to_f64();
+        match (timeline.time(frame), timeline.frames().and_then(|count| timeline.time(count - 1))) {
+            (Some(time), _) => since(time),
+            // How long the last frame is shown, nothing tells.
+            (None, last) => last.map_or(0.0, since) + even,
+        }
+    }
+}
+
+/// Finds the times of a video's frames.
+fn timeline(info: &VideoInfo) -> Result<Timeline> {
+    Ok(Ffmpeg::find().and_then(|ffmpeg| ffmpeg.timeline(info)).map_err(foreign)?)
+}
+
 fn rate_of(times: FrameTimes) -> Ratio {
     match times {
         FrameTimes::Even { rate } | FrameTimes::Stamps { rate, .. } => rate,
@@ -228,30 +268,29 @@ fn codec(plan: &VideoPlan) -> Result<Option<Codec>> {
 /// Returns the times of the frames, as settings and, of a variable rate, one by one.
 fn times(
     (rate, plan): (Option<FrameRate>, &VideoPlan),
-    source: Option<(&VideoInfo, &[u64])>,
+    source: Option<Shown>,
     told: &mut Vec<Diagnostic>,
-) -> Result<(FrameTimes, Vec<i64>)> {
+) -> (FrameTimes, Vec<i64>) {
     let even = |rate: FrameRate| -> FrameTimes {
         let ratio = Ratio::new(rate.frames.into(), rate.seconds.into()).unwrap_or(Ratio::ONE);
         FrameTimes::Even { rate: ratio }
     };
     if let Some(rate) = rate {
-        return Ok((even(rate), Vec::new()));
+        return (even(rate), Vec::new());
     }
-    let Some((info, frames)) = source else {
-        if plan.frames > 1 {
+    let Some(Shown { info, frames, timeline }) = source else {
+        if plan.frames != Some(1) {
             let message = format!(
                 "the video gets {USUAL} frames a second, since nothing tells its rate; give another with {FPS}"
             );
             told.push(Diagnostic::warning(Code::FrameRate, message));
         }
-        return Ok((even(USUAL), Vec::new()));
+        return (even(USUAL), Vec::new());
     };
     let is_forward = frames.windows(2).all(|pair| pair[0] < pair[1]);
-    if info.is_variable && is_forward {
-        let timeline = Ffmpeg::find().and_then(|ffmpeg| ffmpeg.timeline(info)).map_err(foreign)?;
+    if let Some(timeline) = timeline.filter(|_| is_forward) {
         let stamps: Option<Vec<i64>> = frames.iter().map(|frame| timeline.time(*frame)).collect();
-        if let (Timeline::Listed { time_base, .. }, Some(stamps)) = (&timeline, stamps) {
+        if let (Timeline::Listed { time_base, .. }, Some(stamps)) = (timeline, stamps) {
             let message = format!(
                 "{}: the frame rate varies, and each frame keeps its time; {FPS} gives the video an even rate",
                 info.path.display()
@@ -259,15 +298,15 @@ fn times(
             told.push(Diagnostic::note(Code::FrameRate, message));
             let first = stamps.first().copied().unwrap_or_default();
             let stamps = stamps.iter().map(|time| time - first).collect();
-            return Ok((FrameTimes::Stamps { time_base: *time_base, rate: info.rate }, stamps));
+            return (FrameTimes::Stamps { time_base: *time_base, rate: info.rate }, stamps);
         }
     }
-    Ok((FrameTimes::Even { rate: info.rate }, Vec::new()))
+    (FrameTimes::Even { rate: info.rate }, Vec::new())
 }
 
 /// Returns what a video takes over of its source. Sound goes along if frames follow each other as they did.
-fn carried(source: Option<(&VideoInfo, &[u64])>, times: FrameTimes, told: &mut Vec<Diagnostic>) -> Option<Carried> {
-    let (info, frames) = source?;
+fn carried(source: Option<Shown>, times: FrameTimes, told: &mut Vec<Diagnostic>) -> Option<Carried> {
+    let Shown { info, frames, .. } = source?;
     let follows = |pair: &[u64]| pair[1] == pair[0] + 1;
     let why = if info.cut.is_some() {
         Some("the file is cut".to_owned())
@@ -283,9 +322,5 @@ fn carried(source: Option<(&VideoInfo, &[u64])>, times: FrameTimes, told: &mut V
         }
         return None;
     }
-    let (first, last) = (*frames.first()?, *frames.last()?);
-    let is_all = first == 0 && info.announced.is_some_and(|announced| last + 1 >= announced.frames);
-    let time = |frame: u64| frame as f64 / info.rate.to_f64();
-    let seconds: Option<Range<f64>> = (!is_all).then(|| time(first)..time(last + 1));
-    Some(Carried { info: info.clone(), seconds })
+    Some(Carried { info: info.clone(), seconds: source?.part() })
 }

@@ -9,6 +9,8 @@ mod absent;
 mod described;
 mod frame_name;
 #[cfg(feature = "video")]
+mod live;
+#[cfg(feature = "video")]
 mod made;
 #[cfg(feature = "video")]
 mod raw;
@@ -16,6 +18,7 @@ mod raw;
 mod read;
 #[cfg_attr(not(feature = "video"), allow(dead_code, reason = "plans are for videos"))]
 mod settings;
+mod sink;
 
 use std::path::Path;
 
@@ -28,8 +31,9 @@ pub(crate) use frame_name::FrameName;
 pub(crate) use made::MadeVideos;
 #[cfg(feature = "video")]
 pub use read::Videos;
+pub(crate) use settings::{Coming, RawBytes, RawFiles, RawKind, VideoPlan, VideoSource};
 pub use settings::{DamagedFrames, VideoSettings};
-pub(crate) use settings::{RawFiles, RawKind, VideoPlan, VideoSource};
+pub use sink::PictureSink;
 
 /// Returns whether a file is taken for a video or a stream of pictures, by its name. Without the feature `video`, none is.
 pub fn is_video(path: &Path) -> bool {

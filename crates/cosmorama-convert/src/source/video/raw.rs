@@ -1,21 +1,21 @@
 //! Streams of raw pictures, without ffmpeg: YUV4MPEG2, PAM and PFM, from any source of bytes and into files.
 
 use std::fs::{File, OpenOptions};
-use std::io::BufWriter;
+use std::io::{BufRead, BufWriter, Write};
 use std::path::Path;
 
 use cosmorama::raster::{Depth, EncodedImage, Transfer};
 use cosmorama_io::pending::{Pending, Unfinished};
-use cosmorama_io::{Format, Header, IoError, Limits, Metadata, ReadSeek};
+use cosmorama_io::{Format, Header, IoError, Limits, Metadata};
 use cosmorama_spec::FrameRate;
 use cosmorama_video::{
     ByteOrder, PamReader, PamWriter, PfmReader, PfmWriter, Ratio, VideoError, Y4mFormat, Y4mReader, Y4mWriter,
 };
 
-use super::RawKind;
+use super::{PictureSink, RawKind};
 
 /// Bytes of a stream.
-pub(super) type Bytes = Box<dyn ReadSeek + Send>;
+pub(super) type Bytes = Box<dyn BufRead + Send>;
 
 /// Properties of a stream.
 #[derive(Debug)]
@@ -24,8 +24,6 @@ pub(super) struct RawInfo {
     pub(super) header: Header,
     /// Rate, if the stream says one.
     pub(super) rate: Option<FrameRate>,
-    /// Number of pictures.
-    pub(super) count: u64,
 }
 
 /// Reader of a stream.
@@ -35,17 +33,21 @@ pub(super) enum RawReader {
     Pfm(PfmReader<Bytes>),
 }
 
-/// Writer of a stream into a file that appears when it is whole.
+/// Writer of a stream: into a file that appears when it is whole, or on to whoever takes its pictures as they are made.
 pub(super) struct RawWriter {
     pictures: Pictures,
-    pending: Pending,
+    /// File in progress; `None` where pictures are passed on.
+    pending: Option<Pending>,
 }
 
 enum Pictures {
-    Y4m(Y4mWriter<BufWriter<File>>),
-    Pam(PamWriter<BufWriter<File>>),
-    Pfm(PfmWriter<BufWriter<File>>),
+    Y4m(Y4mWriter<Goal>),
+    Pam(PamWriter<Goal>),
+    Pfm(PfmWriter<Goal>),
 }
+
+/// Place where the bytes of pictures go.
+type Goal = Box<dyn Write + Send>;
 
 /// Wraps the error of a reader or writer of videos.
 pub(super) fn foreign(error: VideoError) -> IoError {
@@ -66,36 +68,15 @@ pub(super) fn aside<T: Send>(work: impl FnOnce() -> Result<T, VideoError> + Send
 }
 
 impl RawInfo {
-    /// Reads a stream to its end, to know its pictures.
-    pub(super) fn read(kind: RawKind, bytes: Bytes, name: &str) -> Result<Self, VideoError> {
+    /// Reads a stream to its end, to know its pictures and their number.
+    pub(super) fn read(kind: RawKind, bytes: Bytes, name: &str) -> Result<(Self, u64), VideoError> {
         let mut reader = RawReader::open(kind, bytes, name, Limits::default().memory)?;
-        let rate = match &reader {
-            RawReader::Y4m(reader) => {
-                let rate = reader.format().rate;
-                Some(FrameRate { frames: rate.numerator(), seconds: rate.denominator() })
-            }
-            RawReader::Pam(_) | RawReader::Pfm(_) => None,
-        };
-        let empty = || VideoError::Stream {
-            name: name.to_owned(),
-            frame: 0,
-            reason: "it has no picture; make it again".to_owned(),
-        };
-        let first = reader.next_picture(name)?.ok_or_else(empty)?;
+        let (_, info) = reader.begin(kind, name)?;
         let mut count = 1;
         while reader.next_picture(name)?.is_some() {
             count += 1;
         }
-        let header = Header {
-            format: Format::Video,
-            width: first.width(),
-            height: first.height(),
-            channels: first.channels(),
-            depth: first.depth(),
-            metadata: kind.metadata(),
-            window: None,
-        };
-        Ok(Self { header, rate, count })
+        Ok((info, count))
     }
 }
 
@@ -123,6 +104,36 @@ impl RawReader {
         })
     }
 
+    /// Reads the first picture of a stream, which tells what all are.
+    pub(super) fn begin(&mut self, kind: RawKind, name: &str) -> Result<(EncodedImage, RawInfo), VideoError> {
+        let empty = || VideoError::Stream {
+            name: name.to_owned(),
+            frame: 0,
+            reason: "it has no picture; make it again".to_owned(),
+        };
+        let first = self.next_picture(name)?.ok_or_else(empty)?;
+        let header = Header {
+            format: Format::Video,
+            width: first.width(),
+            height: first.height(),
+            channels: first.channels(),
+            depth: first.depth(),
+            metadata: kind.metadata(),
+            window: None,
+        };
+        Ok((first, RawInfo { header, rate: self.rate() }))
+    }
+
+    fn rate(&self) -> Option<FrameRate> {
+        match self {
+            Self::Y4m(reader) => {
+                let rate = reader.format().rate;
+                Some(FrameRate { frames: rate.numerator(), seconds: rate.denominator() })
+            }
+            Self::Pam(_) | Self::Pfm(_) => None,
+        }
+    }
+
     /// Returns the next picture; `None` after the last.
     pub(super) fn next_picture(&mut self, name: &str) -> Result<Option<EncodedImage>, VideoError> {
         let next = || match self {
@@ -141,17 +152,22 @@ impl std::fmt::Debug for RawWriter {
 }
 
 impl RawWriter {
-    /// Begins a stream of pictures of a size, a depth and a rate.
+    /// Begins a stream of pictures of a size, a depth and a rate. Without a sink, it becomes a file.
     pub(super) fn create(
         kind: RawKind,
         path: &Path,
         (size, depth, rate): ((usize, usize), Depth, Ratio),
-        unfinished: &Unfinished,
+        (sink, unfinished): (Option<&PictureSink>, &Unfinished),
     ) -> Result<Self, IoError> {
-        let pending = Pending::create(path, unfinished)?;
-        let opened = OpenOptions::new().write(true).truncate(true).open(pending.path());
-        let file = opened.map_err(|source| IoError::Open { path: path.to_owned(), source })?;
-        let (sink, name) = (BufWriter::new(file), path.display().to_string());
+        let (pending, goal): (Option<Pending>, Goal) = match sink {
+            Some(sink) => (None, Box::new(sink.clone())),
+            None => {
+                let pending = Pending::create(path, unfinished)?;
+                let file = opened(&pending, path)?;
+                (Some(pending), Box::new(BufWriter::new(file)))
+            }
+        };
+        let name = path.display().to_string();
         let pictures = match kind {
             RawKind::Y4m => {
                 let bits = match depth {
@@ -161,10 +177,10 @@ impl RawWriter {
                     Depth::Sixteen | Depth::Half | Depth::Float => 16,
                 };
                 let format = Y4mFormat { bits, ..Y4mFormat::new(size, rate) };
-                Pictures::Y4m(Y4mWriter::new(sink, &name, format).map_err(foreign)?)
+                Pictures::Y4m(Y4mWriter::new(goal, &name, format).map_err(foreign)?)
             }
-            RawKind::Pam => Pictures::Pam(PamWriter::new(sink, &name)),
-            RawKind::Pfm => Pictures::Pfm(PfmWriter::new(sink, &name, ByteOrder::Little)),
+            RawKind::Pam => Pictures::Pam(PamWriter::new(goal, &name)),
+            RawKind::Pfm => Pictures::Pfm(PfmWriter::new(goal, &name, ByteOrder::Little)),
         };
         Ok(Self { pictures, pending })
     }
@@ -179,13 +195,19 @@ impl RawWriter {
         aside(write, name)
     }
 
-    /// Ends the stream, whose file then appears.
+    /// Ends the stream; if it goes into a file, that then appears.
     pub(super) fn finish(self) -> Result<(), VideoError> {
         match self.pictures {
             Pictures::Y4m(writer) => drop(writer.finish()?),
             Pictures::Pam(writer) => drop(writer.finish()?),
             Pictures::Pfm(writer) => drop(writer.finish()?),
         }
-        Ok(self.pending.finish()?)
+        Ok(self.pending.map_or(Ok(()), Pending::finish)?)
     }
+}
+
+/// Opens a file in progress for writing.
+fn opened(pending: &Pending, path: &Path) -> Result<File, IoError> {
+    let opened = OpenOptions::new().write(true).truncate(true).open(pending.path());
+    opened.map_err(|source| IoError::Open { path: path.to_owned(), source })
 }

@@ -1,6 +1,7 @@
 //! Frames of videos that are read: decoded once each, in order as far as they are asked for so.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
@@ -14,8 +15,9 @@ use cosmorama_video::{
 };
 use thiserror::Error;
 
+use super::live::Live;
 use super::raw::{RawInfo, RawReader, aside, foreign};
-use super::{DamagedFrames, FrameName, RawFiles, RawKind, described};
+use super::{Coming, DamagedFrames, FrameName, RawBytes, RawFiles, RawKind, described};
 
 /// Videos among the inputs of a conversion. Each is opened when it is first asked for.
 #[derive(Debug)]
@@ -35,6 +37,7 @@ struct Source {
     /// Header that all frames share.
     header: Header,
     damaged: Damaged,
+    /// Number of frames; of a stream that is read as it comes, as many as there can be.
     count: u64,
     state: Mutex<State>,
 }
@@ -46,6 +49,8 @@ enum Content {
     Film { ffmpeg: Arc<Ffmpeg>, info: Box<VideoInfo>, half: Option<Box<SecondHalf>> },
     /// A stream of raw pictures.
     Raw { kind: RawKind, files: Arc<dyn RawFiles>, rate: Option<FrameRate> },
+    /// A stream of raw pictures that is read as it comes.
+    Live { pictures: Mutex<Live>, rate: Option<FrameRate> },
 }
 
 /// Decoder of a video.
@@ -107,9 +112,18 @@ impl Videos {
         Ok(ImageFile { format, image, metadata, window: None })
     }
 
-    /// Returns the number of frames.
-    pub(crate) fn count(&self, video: &Path) -> Result<u64, IoError> {
-        Ok(self.source(video)?.count)
+    /// Returns the number of frames; `None` for a stream that is read as it comes.
+    pub(crate) fn count(&self, video: &Path) -> Result<Option<u64>, IoError> {
+        let source = self.source(video)?;
+        Ok((!matches!(source.content, Content::Live { .. })).then_some(source.count))
+    }
+
+    /// Tells whether a frame can be read at once, and waits for it if that is wanted. No thread of a pool should wait in its place, since
+    /// others may have to finish frames before it.
+    pub(crate) fn coming(&self, name: &FrameName, may_wait: bool) -> Result<Coming, IoError> {
+        let source = self.source(&name.video)?;
+        let Content::Live { pictures, .. } = &source.content else { return Ok(Coming::Here) };
+        Ok(lock(pictures).coming(name.frame, may_wait))
     }
 
     /// Returns the rate; `None` if it varies, or none is said.
@@ -119,7 +133,7 @@ impl Videos {
                 let rate = FrameRate { frames: info.rate.numerator(), seconds: info.rate.denominator() };
                 (!info.is_variable).then_some(rate)
             }
-            Content::Raw { rate, .. } => *rate,
+            Content::Raw { rate, .. } | Content::Live { rate, .. } => *rate,
         })
     }
 
@@ -145,7 +159,7 @@ impl Videos {
         Ok(match &self.source(video)?.content {
             Content::Film { half: Some(half), .. } => described::paired(half.place).map(|spec| (spec, "two streams")),
             Content::Film { info, .. } => described::spec(info).map(|spec| (spec, "spherical tags")),
-            Content::Raw { .. } => None,
+            Content::Raw { .. } | Content::Live { .. } => None,
         })
     }
 
@@ -178,6 +192,15 @@ impl Videos {
         self.sources().values().try_for_each(|source| source.end()).map_err(foreign)
     }
 
+    /// Ends the decoder of a video, and returns the frames that were damaged or missing, with the reasons.
+    pub(crate) fn faults(&self, video: &Path) -> Result<Vec<(Range<u64>, String)>, IoError> {
+        let source = self.source(video)?;
+        let mut state = source.state();
+        state.close();
+        let ranged = |(first, (count, reason)): (&u64, &(u64, String))| (*first..first + count, reason.clone());
+        Ok(state.faults.iter().map(ranged).collect())
+    }
+
     /// Returns messages about frames that were damaged, and about frames that were not announced; an item for each video.
     pub(crate) fn complaints(&self) -> Vec<String> {
         self.sources().values().filter_map(|source| source.complaint()).collect()
@@ -187,7 +210,7 @@ impl Videos {
     pub(super) fn info(&self, video: &Path) -> Result<Option<VideoInfo>, IoError> {
         Ok(match &self.source(video)?.content {
             Content::Film { info, .. } => Some((**info).clone()),
-            Content::Raw { .. } => None,
+            Content::Raw { .. } | Content::Live { .. } => None,
         })
     }
 
@@ -217,7 +240,7 @@ impl Videos {
     }
 
     fn sources(&self) -> MutexGuard<'_, BTreeMap<PathBuf, Arc<Source>>> {
-        self.sources.lock().unwrap_or_else(PoisonError::into_inner)
+        lock(&self.sources)
     }
 }
 
@@ -250,21 +273,32 @@ impl Source {
     }
 
     fn raw(kind: RawKind, video: &Path, files: &Arc<dyn RawFiles>) -> Result<Self, IoError> {
-        let bytes = files.open(video)?;
-        let RawInfo { header, rate, count } =
-            RawInfo::read(kind, bytes, &video.display().to_string()).map_err(foreign)?;
-        let content = Content::Raw { kind, files: Arc::clone(files), rate };
+        let (RawInfo { header, .. }, content, count) = match files.open(video)? {
+            RawBytes::Kept(bytes) => {
+                let (info, count) = RawInfo::read(kind, bytes, &video.display().to_string()).map_err(foreign)?;
+                let content = Content::Raw { kind, files: Arc::clone(files), rate: info.rate };
+                (info, content, count)
+            }
+            RawBytes::Live(bytes) => {
+                let (pictures, info) = Live::open(kind, bytes, video)?;
+                let content = Content::Live { pictures: Mutex::new(pictures), rate: info.rate };
+                (info, content, u64::MAX)
+            }
+        };
         let damaged = Damaged::Error;
         Ok(Self { name: video.to_owned(), content, header, damaged, count, state: Mutex::default() })
     }
 
     fn state(&self) -> MutexGuard<'_, State> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+        lock(&self.state)
     }
 
     /// Returns a frame; `None` if it is left out. Nobody waits for another frame to be asked for, so that no two threads can wait for
     /// each other.
     fn frame(&self, number: u64, limits: &Limits) -> Result<Option<EncodedImage>, IoError> {
+        if let Content::Live { pictures, .. } = &self.content {
+            return lock(pictures).take(number).map(Some);
+        }
         let mut state = self.state();
         state.wanted.remove(&number);
         if let Some(image) = state.early.remove(&number) {
@@ -321,10 +355,11 @@ impl Source {
         let (ffmpeg, info, half) = match &self.content {
             Content::Film { ffmpeg, info, half } => (ffmpeg, info, half),
             Content::Raw { kind, files, .. } => {
-                let reader =
-                    RawReader::open(*kind, files.open(&self.name)?, &self.name.display().to_string(), limits.memory)?;
+                let (RawBytes::Kept(bytes) | RawBytes::Live(bytes)) = files.open(&self.name)?;
+                let reader = RawReader::open(*kind, bytes, &self.name.display().to_string(), limits.memory)?;
                 return Ok((Decoder::Raw(reader), 0));
             }
+            Content::Live { .. } => return Err(self.without(first)),
         };
         let last = state.wanted.last().copied().unwrap_or(0).max(first);
         let last = if state.is_expected { last } else { last.max(self.count.saturating_sub(1)) };
@@ -406,7 +441,12 @@ impl State {
 /// Error that several threads are told of.
 #[derive(Clone, Debug, Error)]
 #[error(transparent)]
-struct Shared(Arc<VideoError>);
+pub(super) struct Shared(pub(super) Arc<VideoError>);
+
+/// Locks a value that no panic leaves half changed.
+fn lock<T>(value: &Mutex<T>) -> MutexGuard<'_, T> {
+    value.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
 /// Returns the number of frames that a file announces. Where only its duration tells, which may be rounded, its coded frames are
 /// counted.

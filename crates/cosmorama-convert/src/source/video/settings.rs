@@ -1,8 +1,9 @@
 use std::fmt::Debug;
+use std::io::BufRead;
 use std::path::{Path, PathBuf};
 
 use cosmorama::raster::{Channels, Depth, Primaries, Transfer};
-use cosmorama_io::{Format, IoError, ReadSeek};
+use cosmorama_io::{Format, IoError};
 use cosmorama_spec::{FrameRate, Spec};
 
 /// Settings of videos, read and made.
@@ -45,8 +46,8 @@ pub(crate) struct VideoPlan {
     pub(crate) transfer: Transfer,
     /// Primaries.
     pub(crate) primaries: Primaries,
-    /// Number of frames.
-    pub(crate) frames: u64,
+    /// Number of frames; `None` while the input's end is not known.
+    pub(crate) frames: Option<u64>,
     /// Input whose sound and rate the videos take over.
     pub(crate) source: Option<VideoSource>,
 }
@@ -95,5 +96,24 @@ impl RawKind {
 /// Source of the bytes of streams.
 pub(crate) trait RawFiles: Debug + Send + Sync {
     /// Opens a stream.
-    fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek + Send>, IoError>;
+    fn open(&self, path: &Path) -> Result<RawBytes, IoError>;
+}
+
+/// Bytes of a stream.
+pub(crate) enum RawBytes {
+    /// As often as they are asked for.
+    Kept(Box<dyn BufRead + Send>),
+    /// Once, as they come.
+    Live(Box<dyn BufRead + Send>),
+}
+
+/// Arrival of a frame of a stream that is read as it comes. Frames of other videos are there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Coming {
+    /// It can be read at once, or there is an error to tell of.
+    Here,
+    /// It has not come yet.
+    Later,
+    /// The stream has ended before it.
+    Never,
 }

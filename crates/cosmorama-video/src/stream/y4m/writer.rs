@@ -55,8 +55,7 @@ impl<W: Write> Y4mWriter<W> {
             _ => bytes.extend(codes.flat_map(|code| code.to_le_bytes())),
         }
         self.output.write(&bytes)?;
-        self.output.count();
-        Ok(())
+        self.output.end_frame()
     }
 
     /// Writes what is left in buffers.

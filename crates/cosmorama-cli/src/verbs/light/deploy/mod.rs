@@ -70,7 +70,8 @@ pub(super) fn run(mut args: DeployArgs, console: &mut Console) -> Result<ExitCod
     }
     pending.finish()?;
     if args.world.json {
-        let json = json!({ "preset": args.preset.name(), "folder": args.folder, "outputs": outputs });
+        let json =
+            json!({ "preset": args.preset.name(), "folder": args.folder.display().to_string(), "outputs": outputs });
         console.print(&(serde_json::to_string_pretty(&json)? + "\n"))?;
     } else if args.progress.is_for_people() {
         console.report(format_args!(
@@ -182,7 +183,7 @@ impl Deployment<'_> {
         let usual = LightSettings::map(Lobe::LAMBERT, LightNormalisation::Radiance);
         let light = LightSettings { levels, ..usual };
         let conversion = Conversion {
-            output: path.display().to_string(),
+            output: path.into(),
             geometry,
             light: Some(light),
             existing: Existing::Replace,
