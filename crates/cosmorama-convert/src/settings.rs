@@ -447,7 +447,11 @@ impl Conversion {
     /// Returns whether frames of the input are asked for in order, each once, so that a stream can be read as it comes. Where its end must
     /// be known before, as for a camera that turns over all frames, or a frame be found again, it must be kept.
     pub fn reads_in_order(&self) -> bool {
-        let takes_frames = || ViewFiles::new(Path::new(&self.output)).has_frames();
+        let takes_frames = || match ViewFiles::new(Path::new(&self.output)) {
+            // Folders are made before the work, for frames that are known.
+            ViewFiles::Sequence(pattern) => pattern.path(0).parent() == pattern.path(1).parent(),
+            other => other.has_frames(),
+        };
         let is_forward = |list: &FrameList| list.frames().windows(2).all(|pair| pair[0] < pair[1]);
         self.light.is_none()
             && !self.st_map

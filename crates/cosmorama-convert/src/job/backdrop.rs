@@ -153,7 +153,7 @@ impl FoundBackdrop {
         let backdrop = match further {
             None => None,
             Some(found) => {
-                let own = memory.beside_frame(FrameNeeds::of(&input, &[], front.target, Held::any()));
+                let own = memory.beside_frame(FrameNeeds::of(&input, &[], front.target, Held::any()).of_many());
                 let job = found.resolve(&Front { memory: own, ..*front }, warnings)?;
                 let (job, left) = job.share(memory);
                 memory = left;

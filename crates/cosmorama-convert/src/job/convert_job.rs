@@ -188,7 +188,7 @@ impl ConvertJob {
             Some(found) => {
                 let frames = &input.frames[..];
                 let (movement, filter) = (movement.as_ref(), filter);
-                let own = memory.beside_frame(FrameNeeds::of(&input, &[], &target, Held::any()));
+                let own = memory.beside_frame(FrameNeeds::of(&input, &[], &target, Held::any()).of_many());
                 let job = found.resolve(&Front { frames, target: &target, movement, filter, memory: own }, warnings)?;
                 Some(job)
             }
@@ -353,6 +353,8 @@ impl ConvertJob {
     pub(crate) fn frame_needs(&self) -> FrameNeeds {
         let held = if self.fixed_codec().is_some() { Held::INTEGERS } else { Held::floats(&self.light) };
         let needs = FrameNeeds::of(&self.input, &self.worlds, &self.target, held).with_prepared(self.prepared);
+        let is_one = self.input.frames.len() <= 1 && !self.outputs.are_many();
+        let needs = if is_one { needs } else { needs.of_many() };
         if self.filter.kind != FilterKind::Ewa || self.lighting.is_some() {
             return needs;
         }

@@ -90,6 +90,8 @@ struct Samples {
     files: usize,
     /// Blocks and copies of the decoders.
     scratch: u64,
+    /// Whether they stay when they have become light, for the next frame.
+    is_kept: bool,
 }
 
 impl FrameNeeds {
@@ -149,25 +151,20 @@ impl FrameNeeds {
         Self { prepared: self.prepared.saturating_add(bytes), ..self }
     }
 
-    /// Returns the bytes that a single frame takes at once, at most, without those of the program. Its samples are freed as they
-    /// become light.
+    /// Returns the needs of one frame of many.
+    pub(crate) fn of_many(self) -> Self {
+        Self { samples: Samples { is_kept: true, ..self.samples }, ..self }
+    }
+
+    /// Returns the bytes that a frame takes at once, at most, without those of the program. Samples of a single frame are freed as
+    /// they become light.
     pub(crate) fn peak(self) -> u64 {
-        let Samples { all, scratch, .. } = self.samples;
-        let beside = self.light.min((BAND * size_of::<Rgba>()) as u64);
-        self.peak_reading(sum([all, scratch]).max(sum([all.max(self.light), beside])))
-    }
-
-    /// Returns the bytes that a frame takes at once, at most, if its samples stay for the next one.
-    pub(crate) fn peak_kept(self) -> u64 {
-        let Samples { all, scratch, .. } = self.samples;
-        self.peak_reading(sum([all, scratch.max(self.light)]))
-    }
-
-    /// Returns the bytes that a frame takes at once, at most, where reading takes so many.
-    fn peak_reading(self, read: u64) -> u64 {
+        let Samples { all, scratch, is_kept, .. } = self.samples;
+        let band = if is_kept { u64::MAX } else { (BAND * size_of::<Rgba>()) as u64 };
+        let (first, last) = (sum([all, scratch.max(self.light.min(band))]), sum([self.light, all.min(band)]));
         let filtered = sum([self.light, self.prepared, self.pictures, self.piece, self.bands]);
         let written = sum([self.pictures, self.encoded]);
-        self.shared.saturating_add(read.max(filtered).max(written))
+        self.shared.saturating_add(first.max(last).max(filtered).max(written))
     }
 
     /// Returns the bytes of a frame of a sequence, without what all share: the next one is read, and the one before written, while it

@@ -28,10 +28,10 @@ impl Name {
         if self.path.to_str().is_some() { self.text.replace(from, to).into() } else { self.clone() }
     }
 
-    /// Refuses marks for frames and faces in a name that is no UTF-8: what they stand for could not be found.
+    /// Refuses marks for frames and faces in a name that is no UTF-8, unless it is that of a file: what they stand for could not be found.
     pub(crate) fn check(&self) -> Result<()> {
         let is_pattern = FramePattern::parse(self).is_some() || FacePattern::parse(self).is_some();
-        if self.path.to_str().is_none() && is_pattern {
+        if self.path.to_str().is_none() && is_pattern && !self.path.is_file() {
             return Err(usage(format!(
                 "{self}: its bytes are no UTF-8, so that it can be the name of one file, but no pattern; rename the files, or the folder"
             )));

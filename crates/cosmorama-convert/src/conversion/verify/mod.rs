@@ -176,13 +176,15 @@ fn series(pattern: &Name) -> Result<ViewFiles> {
     }
 }
 
-/// Puts what the decoder of a video says of frames that it left out into their places.
+/// Puts what the decoder of a video says of frames into their places, when it has said all: of those that it left out, and of those that
+/// it handed out and complained of later.
 fn tell_reasons(frames: &mut [Frame], video: &Path, videos: &Videos) -> Result<()> {
+    videos.end()?;
     let faults = videos.faults(video)?;
     for frame in frames {
         let reason = faults.iter().find(|(range, _)| range.contains(&frame.number)).map(|(_, reason)| reason);
-        if let (Found::Damage(told), Some(reason)) = (&mut frame.found, reason) {
-            told.clone_from(reason);
+        if let Some(reason) = reason {
+            frame.found = Found::Damage(reason.clone());
         }
     }
     Ok(())

@@ -32,7 +32,7 @@ impl Engine<'_> {
         }
         let geometry = lock(&self.posed).as_ref().map_or(0, |posed| posed.geometry.bytes());
         let own = [job.frame_needs().shared, self.queue_depth().bytes, geometry];
-        let behind = job.layers().skip(1).map(|job| job.frame_needs().peak_kept());
+        let behind = job.layers().skip(1).map(|job| job.frame_needs().peak());
         own.into_iter().chain(behind).fold(program_bytes(threads), u64::saturating_add)
     }
 

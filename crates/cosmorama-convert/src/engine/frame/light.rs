@@ -306,21 +306,47 @@ fn decode<'a, T: Send + 'a>(
             counts
         }
         Spent::Freed => {
-            let freed = |image: &mut ViewImage| {
-                let (mut rest, mut counts) = (view(image), Counts::default());
-                let pitch = rest.len() / image.image.height().max(1);
-                while image.image.height() > 0 {
-                    let first = image.image.height().saturating_sub(BAND.div_ceil(image.image.width().max(1)));
-                    let band = rest.split_off_mut(first * pitch..).expect("as many rows as the image has");
-                    let band: Vec<_> = pieces(image, first, band).collect();
-                    let found = band.into_par_iter().map(|(first, into)| rows(image, first, into));
-                    found.collect::<Vec<_>>().into_iter().for_each(|found| counts += found);
-                    image.image.keep_rows(first);
+            let mut counts = vec![Counts::default(); images.len()];
+            let mut batch = Vec::new();
+            for (index, image) in images.iter_mut().enumerate() {
+                let texels = view(image);
+                if batch.iter().map(|(_, _, texels): &Decoded<T>| texels.len()).sum::<usize>() + texels.len() > BAND {
+                    free(std::mem::take(&mut batch), rows, &mut counts);
                 }
-                counts
-            };
-            images.iter_mut().map(freed).collect()
+                batch.push((index, image, texels));
+            }
+            free(batch, rows, &mut counts);
+            counts
         }
+    }
+}
+
+/// An image, its place among all, and its texels.
+type Decoded<'a, T> = (usize, &'a mut ViewImage, &'a mut [T]);
+
+/// Decodes images by bands of their rows, from the last row on, and frees the samples of each band.
+fn free<T: Send>(
+    mut images: Vec<Decoded<'_, T>>,
+    rows: impl Fn(&ViewImage, usize, &mut [T]) -> Counts + Sync,
+    counts: &mut [Counts],
+) {
+    while !images.is_empty() {
+        let mut band = Vec::new();
+        for (index, image, texels) in &mut images {
+            let height = image.image.height();
+            let first = height.saturating_sub(BAND.div_ceil(image.image.width().max(1)));
+            let last = std::mem::take(texels);
+            let (rest, last) = last.split_at_mut(last.len() / height.max(1) * first);
+            *texels = rest;
+            band.extend(pieces(image, first, last).map(|(first, into)| (*index, &**image, first, into)));
+        }
+        let found = band.into_par_iter().map(|(index, image, first, into)| (index, rows(image, first, into)));
+        found.collect::<Vec<_>>().into_iter().for_each(|(index, found)| counts[index] += found);
+        for (_, image, _) in &mut images {
+            let height = image.image.height();
+            image.image.keep_rows(height.saturating_sub(BAND.div_ceil(image.image.width().max(1))));
+        }
+        images.retain(|(_, image, _)| image.image.height() > 0);
     }
 }
 

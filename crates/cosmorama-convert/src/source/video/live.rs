@@ -35,7 +35,7 @@ enum End {
     Fault(Shared),
 }
 
-/// Pictures after the first asked for, when that is no longer kept; more than are ever in flight at once.
+/// Pictures after the first asked for, when that is no longer kept, nor any before it.
 const FORGOTTEN: u64 = 64;
 
 impl Live {
@@ -87,7 +87,7 @@ impl Live {
         let (first, kept) = self.first.get_or_insert_with(|| (number, picture.clone()));
         if *first + FORGOTTEN < number {
             *kept = None;
-            self.come = self.come.split_off(&(number - FORGOTTEN));
+            self.come = self.come.split_off(first);
         }
         let again = || kept.clone().filter(|_| *first == number);
         picture.or_else(again).ok_or_else(|| self.without(number))
