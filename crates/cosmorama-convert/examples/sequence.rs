@@ -14,7 +14,10 @@ struct Watcher;
 
 impl Observer for Watcher {
     fn begin(&mut self, frames: Option<usize>) {
-        println!("{} frames", frames.unwrap_or_default());
+        // Of a stream, nobody knows.
+        if let Some(frames) = frames {
+            println!("{frames} frames");
+        }
     }
 
     fn frame_done(&mut self, frame: Option<u64>) -> ControlFlow<Stop> {

@@ -293,20 +293,15 @@ fn decode<'a, T: Send + 'a>(
     let mut view = |image: &ViewImage| views[image.view].take().expect("one image for each view");
     let rows =
         |image: &ViewImage, first: usize, into: &mut [T]| stages.beside(Stage::Decode, || rows(image, first, into));
+    let mut counts = vec![Counts::default(); images.len()];
     match spent {
         Spent::Kept => {
-            let pieces = images.iter().enumerate().flat_map(|(index, image)| {
-                let piece = move |(first, into)| (index, image, first, into);
-                pieces(image, 0, view(image)).map(piece)
+            let all = images.iter().enumerate().flat_map(|(index, image)| {
+                pieces(image, 0, view(image)).map(move |(first, into)| (index, image, first, into))
             });
-            let pieces: Vec<_> = pieces.collect();
-            let found = pieces.into_par_iter().map(|(index, image, first, into)| (index, rows(image, first, into)));
-            let mut counts = vec![Counts::default(); images.len()];
-            found.collect::<Vec<_>>().into_iter().for_each(|(index, found)| counts[index] += found);
-            counts
+            decode_pieces(all.collect(), rows, &mut counts);
         }
         Spent::Freed => {
-            let mut counts = vec![Counts::default(); images.len()];
             let mut batch = Vec::new();
             for (index, image) in images.iter_mut().enumerate() {
                 let texels = view(image);
@@ -316,35 +311,48 @@ fn decode<'a, T: Send + 'a>(
                 batch.push((index, image, texels));
             }
             free(batch, rows, &mut counts);
-            counts
         }
     }
+    counts
 }
 
 /// An image, its place among all, and its texels.
 type Decoded<'a, T> = (usize, &'a mut ViewImage, &'a mut [T]);
 
-/// Decodes images by bands of their rows, from the last row on, and frees the samples of each band.
-fn free<T: Send>(
-    mut images: Vec<Decoded<'_, T>>,
+/// An image, its place among all, and some of its texels with the row with which they begin.
+type Piece<'a, T> = (usize, &'a ViewImage, usize, &'a mut [T]);
+
+/// Decodes pieces of images in parallel, and adds what is counted to the counts of each image.
+fn decode_pieces<T: Send>(
+    pieces: Vec<Piece<'_, T>>,
     rows: impl Fn(&ViewImage, usize, &mut [T]) -> Counts + Sync,
     counts: &mut [Counts],
 ) {
+    let found = pieces.into_par_iter().map(|(index, image, first, into)| (index, rows(image, first, into)));
+    found.collect::<Vec<_>>().into_iter().for_each(|(index, found)| counts[index] += found);
+}
+
+/// Decodes images by bands of their rows, from the last row on, and frees the samples of each band.
+fn free<T: Send>(
+    mut images: Vec<Decoded<'_, T>>,
+    rows: impl Fn(&ViewImage, usize, &mut [T]) -> Counts + Copy + Sync,
+    counts: &mut [Counts],
+) {
+    let before_band =
+        |image: &ViewImage| image.image.height().saturating_sub(BAND.div_ceil(image.image.width().max(1)));
     while !images.is_empty() {
         let mut band = Vec::new();
         for (index, image, texels) in &mut images {
-            let height = image.image.height();
-            let first = height.saturating_sub(BAND.div_ceil(image.image.width().max(1)));
-            let last = std::mem::take(texels);
-            let (rest, last) = last.split_at_mut(last.len() / height.max(1) * first);
+            let (height, first) = (image.image.height().max(1), before_band(image));
+            let all = std::mem::take(texels);
+            let (rest, last) = all.split_at_mut(all.len() / height * first);
             *texels = rest;
             band.extend(pieces(image, first, last).map(|(first, into)| (*index, &**image, first, into)));
         }
-        let found = band.into_par_iter().map(|(index, image, first, into)| (index, rows(image, first, into)));
-        found.collect::<Vec<_>>().into_iter().for_each(|(index, found)| counts[index] += found);
+        decode_pieces(band, rows, counts);
         for (_, image, _) in &mut images {
-            let height = image.image.height();
-            image.image.keep_rows(height.saturating_sub(BAND.div_ceil(image.image.width().max(1))));
+            let rows = before_band(image);
+            image.image.keep_rows(rows);
         }
         images.retain(|(_, image, _)| image.image.height() > 0);
     }
