@@ -49,7 +49,7 @@ mod pixels {
         let metadata = Metadata { transfer: Some(Transfer::Srgb), ..Metadata::default() };
         let options = WriteOptions { unfinished: unfinished.clone(), ..WriteOptions::with_metadata(metadata) };
         let image = svg::rasterise(drawing, SCALE, Some(folder)).context("cannot draw a diagram")?;
-        Ok(Some(write_hidden(folder.join(format!("{name}.png")), &image, &options)?))
+        Ok(Some(write_hidden(folder.join(format!("{name}.png")), &[image], &options)?))
     }
 }
 

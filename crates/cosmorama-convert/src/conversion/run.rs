@@ -10,7 +10,7 @@ use rayon::ThreadPool;
 use rayon::prelude::*;
 
 use super::report::Further;
-use super::{Checked, Observer, Report, Stop, Work, decisions, videos, watched};
+use super::{Checked, Observer, Report, Stop, Work, decisions, threads, videos, watched};
 use crate::diagnostic::{Code, ConvertError, DEPTH, Diagnostic, Result, SCALE};
 use crate::engine::unfiltered::{OutputFile, formula, st_map};
 use crate::engine::{
@@ -21,6 +21,9 @@ use crate::job::options::write_options;
 use crate::job::{Content, ConvertJob, FrameOutputs};
 use crate::settings::LightSettings;
 use crate::source::video::{FrameName, Videos};
+
+/// Threads at most that wait for disks while a sequence is made.
+const MOST_WAITING: usize = 8;
 
 impl Checked {
     /// Makes the outputs. Each appears whole or not at all.
@@ -115,7 +118,8 @@ impl Checked {
             [] => Ok(Vec::new()),
             [frame] if !job.outputs.go_on => run.still(frame).map(|()| Vec::new()),
             _ => {
-                let sequence = Sequence { job, engine, stages, pool };
+                let disks = &threads(Some(engine.queue_depth().written.min(MOST_WAITING)))?;
+                let sequence = Sequence { job, engine, stages, pool, disks };
                 stages.among(Stage::Filter, || sequence.run(&mut run))
             }
         };

@@ -99,11 +99,11 @@ impl WorldLight {
         let content = Content::of(&settings)?;
         let pool = threads(settings.limits.threads)?;
         let job = pool.install(|| ConvertJob::resolve(&settings, (content, Purpose::Light), diagnostics))?;
-        if job.outputs.frames.len() > 1 {
+        if job.outputs.are_many() {
+            let count = job.outputs.count().map_or("any number of".to_owned(), |count| count.to_string());
             return Err(usage(format!(
-                "{} has {} frames, but one world is wanted; choose a frame, as in {FRAMES} {}",
+                "{} has {count} frames, but one world is wanted; choose a frame, as in {FRAMES} {}",
                 settings.input,
-                job.outputs.frames.len(),
                 job.outputs.frames[0].frame.unwrap_or_default()
             )));
         }

@@ -2,7 +2,7 @@
 //!
 //! One scheduling thread has files read ahead, filters the current frame, and has pictures written behind. All work runs in
 //! one thread pool, so that codecs and the filter share the cores. Pool threads never block on a queue; only the scheduling
-//! thread does. Both queues are bounded, and keep the frames' order.
+//! thread does. Nor do they wait until a file is on its disk: further threads do. Both queues are bounded, and keep the frames' order.
 
 use std::borrow::Cow;
 use std::collections::VecDeque;
@@ -13,6 +13,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 
 use cosmorama::raster::Threads;
+use cosmorama_io::pending::Hidden;
 use rayon::{Scope, ThreadPool};
 
 use crate::diagnostic::{InPlace, Result, bail};
@@ -28,6 +29,8 @@ pub(crate) struct Sequence<'a> {
     pub(crate) engine: &'a Engine<'a>,
     pub(crate) stages: &'a Stages,
     pub(crate) pool: &'a ThreadPool,
+    /// Threads that wait for disks, so that no core is idle meanwhile.
+    pub(crate) disks: &'a ThreadPool,
 }
 
 /// Callbacks about frames, in their order.
@@ -65,26 +68,28 @@ impl<'a> Sequence<'a> {
     pub(crate) fn run(&self, watcher: &mut dyn Watcher) -> Result<Vec<InterpolationReport>> {
         let failure = &FirstFailure::none();
         let mut queues = Queues::default();
-        self.pool.in_place_scope(|scope| {
-            let made = self.make(scope, failure, &mut queues, watcher);
-            // Frames that are still being written come before the one that failed, so that their errors come first. If
-            // one of them has failed, the error in `made` says only that files of a later frame were not read.
-            let earlier = queues.finish_written(0, watcher);
-            failure.end();
-            earlier.and(made)
+        self.disks.in_place_scope(|disk| {
+            self.pool.in_place_scope(|work| {
+                let made = self.make(Turn { work, disk, failure, place: 0 }, &mut queues, watcher);
+                // Frames that are still being written come before the one that failed, so that their errors come first. If
+                // one of them has failed, the error in `made` says only that files of a later frame were not read.
+                let earlier = queues.finish_written(0, watcher);
+                failure.end();
+                earlier.and(made)
+            })
         })
     }
 
     fn make<'s>(
         &self,
-        scope: &Scope<'s>,
-        failure: &'s FirstFailure,
+        turn: Turn<'_, 's, '_>,
         queues: &mut Queues<'a>,
         watcher: &mut dyn Watcher,
     ) -> Result<Vec<InterpolationReport>>
     where
         'a: 's,
     {
+        let failure = turn.failure;
         let QueueDepth { read, written, .. } = self.engine.queue_depth();
         let mut light = self.engine.frame_light();
         let frames = &self.job.outputs.frames;
@@ -94,7 +99,7 @@ impl<'a> Sequence<'a> {
         loop {
             while queues.read.len() < read && self.is_next_here(&mut upcoming, queues, watcher)? {
                 let Some((place, frame)) = upcoming.next() else { break };
-                let results = self.have_read((scope, failure, place), &frame, which);
+                let results = self.have_read(turn.of(place), &frame, which);
                 queues.read.push_back((place, frame, results));
                 which = Which::Moving;
             }
@@ -135,7 +140,7 @@ impl<'a> Sequence<'a> {
             let interpolated = interpolated.map(|(place, maps)| (place, Cow::Borrowed(&frames[place - 1]), maps));
             for (place, frame, pictures) in interpolated.chain([(place, frame, pictures)]) {
                 queues.finish_written(written - 1, watcher)?;
-                let being_written = self.have_written((scope, failure, place), &frame, (pictures, &light))?;
+                let being_written = self.have_written(turn.of(place), &frame, (pictures, &light))?;
                 queues.written.push_back((frame, being_written));
             }
         }
@@ -179,7 +184,7 @@ impl<'a> Sequence<'a> {
     }
 
     /// Starts reading the files of a frame.
-    fn have_read<'s>(&self, turn: Turn<'_, 's>, frame: &FrameOutputs, which: Which) -> Results<FileImages>
+    fn have_read<'s>(&self, turn: Turn<'_, 's, '_>, frame: &FrameOutputs, which: Which) -> Results<FileImages>
     where
         'a: 's,
     {
@@ -192,7 +197,7 @@ impl<'a> Sequence<'a> {
                 Err(error) if may_lack && error.is_left_out() => Ok(None),
                 images => images.map(Some),
             };
-            task(turn, move || stages.beside(Stage::Decode, images))
+            turn.start(move || stages.beside(Stage::Decode, images))
         };
         files.map(read).collect()
     }
@@ -200,7 +205,7 @@ impl<'a> Sequence<'a> {
     /// Has the pictures of a frame written.
     fn have_written<'s>(
         &self,
-        turn: Turn<'_, 's>,
+        turn: Turn<'_, 's, '_>,
         frame: &FrameOutputs,
         (pictures, light): (Vec<Levels>, &FrameLight),
     ) -> Result<Results<()>>
@@ -210,11 +215,11 @@ impl<'a> Sequence<'a> {
         let Self { job, engine, stages, .. } = *self;
         let origin = job.origin_of(frame.frame)?.map(Arc::<str>::from);
         light.check_unchanged(&*job.files).at(|| named(frame))?;
-        let words = FrameWords { place: turn.2 - 1, carried: light.carried(), origin };
+        let words = FrameWords { place: turn.place - 1, carried: light.carried(), origin };
         let write = |((_, path), levels): (&(usize, PathBuf), Levels)| {
             let (path, words) = (path.clone(), words.clone());
-            let save = move || engine.writer().save(words, levels, &path, Threads::One);
-            task(turn, move || stages.beside(Stage::Encode, save))
+            let save = move || engine.writer().save_hidden(words, levels, &path, Threads::One);
+            turn.write(move || stages.beside(Stage::Encode, save))
         };
         Ok(frame.files.iter().zip(pictures).map(write).collect())
     }
@@ -256,27 +261,73 @@ impl FirstFailure {
     }
 }
 
-/// Scope for the tasks of a frame, the failure to observe, and the frame's index.
-type Turn<'t, 's> = (&'t Scope<'s>, &'s FirstFailure, usize);
+/// Threads for the tasks of a frame, the failure to observe, and the frame's index.
+#[derive(Clone, Copy)]
+struct Turn<'t, 's, 'd> {
+    work: &'t Scope<'s>,
+    disk: &'s Scope<'d>,
+    failure: &'d FirstFailure,
+    place: usize,
+}
 
-/// Starts a task in the pool. It is skipped if an earlier frame has failed.
-fn task<'s, T: Send + 's>(
-    (scope, failure, place): Turn<'_, 's>,
-    work: impl FnOnce() -> Result<T> + Send + 's,
-) -> Receiver<Result<T>> {
-    let (result, receiver): (SyncSender<Result<T>>, _) = sync_channel(1);
-    scope.spawn(move |_| {
-        if failure.is_before(place) {
-            return;
-        }
-        let done = work();
+impl<'s, 'd> Turn<'_, 's, 'd> {
+    fn of(self, place: usize) -> Self {
+        Self { place, ..self }
+    }
+
+    /// Starts a task. It is skipped if an earlier frame has failed.
+    fn start<T: Send + 's>(self, task: impl FnOnce() -> Result<T> + Send + 's) -> Receiver<Result<T>> {
+        let (answer, receiver) = self.answer();
+        self.work.spawn(move |_| {
+            if !answer.is_late() {
+                answer.give(task());
+            }
+        });
+        receiver
+    }
+
+    /// Starts a task that writes a file. The file appears once it is on its disk.
+    fn write(self, task: impl FnOnce() -> Result<Option<Hidden>> + Send + 's) -> Receiver<Result<()>> {
+        let (answer, receiver) = self.answer();
+        let disk = self.disk;
+        self.work.spawn(move |_| {
+            if answer.is_late() {
+                return;
+            }
+            match task() {
+                Ok(Some(file)) => disk.spawn(move |_| answer.give(file.appear().map_err(Into::into))),
+                written => answer.give(written.map(|_| ())),
+            }
+        });
+        receiver
+    }
+
+    fn answer<T>(self) -> (Answer<'d, T>, Receiver<Result<T>>) {
+        let (result, receiver): (SyncSender<Result<T>>, _) = sync_channel(1);
+        (Answer { failure: self.failure, place: self.place, result }, receiver)
+    }
+}
+
+/// Place for the result of a task.
+struct Answer<'d, T> {
+    failure: &'d FirstFailure,
+    place: usize,
+    result: SyncSender<Result<T>>,
+}
+
+impl<T> Answer<'_, T> {
+    /// Returns whether an earlier frame has failed.
+    fn is_late(&self) -> bool {
+        self.failure.is_before(self.place)
+    }
+
+    fn give(self, done: Result<T>) {
         if done.is_err() {
-            failure.note(place);
+            self.failure.note(self.place);
         }
         // Nobody may be waiting any more, if another task has failed.
-        let _ = result.send(done);
-    });
-    receiver
+        let _ = self.result.send(done);
+    }
 }
 
 /// Waits for tasks; returns the error of the first that failed.

@@ -3,7 +3,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
 
 use cosmorama::raster::{Depth, EncodedImage, Encoder, Image, Rgba, Threads};
-use cosmorama_io::{Carried, LayeredImage, Plane, Remark, WriteOptions, write_layers, write_levels};
+use cosmorama_io::pending::Hidden;
+use cosmorama_io::{Carried, LayeredImage, Plane, Remark, WriteOptions, write_hidden, write_layers_hidden};
 
 use crate::colour::{Light, LightConversion, PictureNames};
 use crate::diagnostic::Result;
@@ -98,6 +99,18 @@ impl Writer {
 
     /// Writes an output of a frame, a picture and its mip levels, with what its own frame says. Their memory goes back to the pool.
     pub(crate) fn save(&self, words: FrameWords, levels: Levels, path: &Path, threads: Threads) -> Result<()> {
+        let hidden = self.save_hidden(words, levels, path, threads)?;
+        Ok(hidden.map_or(Ok(()), Hidden::appear)?)
+    }
+
+    /// Writes an output like [`save`](Self::save), but for its name; `None` if it goes into a video.
+    pub(crate) fn save_hidden(
+        &self,
+        words: FrameWords,
+        levels: Levels,
+        path: &Path,
+        threads: Threads,
+    ) -> Result<Option<Hidden>> {
         let mut options = self.options.clone();
         if let Some(carried) = words.carried {
             options.metadata.carried = carried;
@@ -125,18 +138,19 @@ impl Writer {
             Levels::Layered { size, picture, planes } => {
                 let picture = picture.map(encode);
                 let layered = LayeredImage { size, picture: picture.as_ref(), names: self.names.clone(), planes };
-                let written = write_layers(path, layered, options);
+                let written = write_layers_hidden(path, layered, options);
                 picture.into_iter().for_each(|image| pool.give(image.into_samples()));
-                return Ok(written?);
+                return Ok(Some(written?));
             }
         };
         if self.videos.holds(path) {
             // A frame has no levels.
             let frame = encoded.into_iter().next();
-            return Ok(frame.map_or(Ok(()), |frame| self.videos.put(path, words.place, frame, pool))?);
+            frame.map_or(Ok(()), |frame| self.videos.put(path, words.place, frame, pool))?;
+            return Ok(None);
         }
-        let written = write_levels(path, &encoded, options);
+        let written = write_hidden(path, &encoded, options);
         encoded.into_iter().for_each(|image| pool.give(image.into_samples()));
-        Ok(written?)
+        Ok(Some(written?))
     }
 }

@@ -219,7 +219,7 @@ impl ConvertJob {
         memory.check_outputs(&target, &light)?;
         let outputs = match purpose {
             Purpose::Pictures => Outputs::plan(settings, (&input, backdrop.as_deref()), &target)?,
-            Purpose::Light => Outputs::none(&input),
+            Purpose::Light => Outputs::none(settings, &input),
         };
         let missing = match settings.missing {
             _ if backdrop.is_some() => in_front,

@@ -14,6 +14,7 @@ use crate::diagnostic::{CHANNELS, EVERY, Result, SHUTTER};
 use crate::input::{Input, InputView};
 use crate::job::{FrameMemory, QueueDepth};
 use crate::source::MemoryBudget;
+use crate::source::video::RawKind;
 use crate::source::memory_budget::{area, human, read_bytes};
 use crate::target::{Sheet, Target};
 
@@ -182,6 +183,9 @@ impl FrameNeeds {
     }
 }
 
+/// Pictures of a stream beside those of its frames: one that is being read, one that has come, and the first.
+const AHEAD: u64 = 3;
+
 impl Samples {
     fn of(input: &Input) -> Self {
         let mut found = Self::default();
@@ -189,7 +193,8 @@ impl Samples {
             // Parts of a file, and turned pictures, are copies beside the whole.
             let is_copied = view.part.is_some() || header.metadata.orientation.is_some();
             let bytes = read_bytes(header).saturating_mul(if is_copied { 2 } else { 1 });
-            found.all = found.all.saturating_add(bytes);
+            let ahead = if view.files.video().and_then(RawKind::of).is_some() { AHEAD } else { 0 };
+            found.all = found.all.saturating_add(bytes.saturating_mul(1 + ahead));
             found.scratch = found.scratch.saturating_add(scratch_bytes(header));
             if view.files.has_frames() {
                 found.moving = found.moving.saturating_add(bytes);

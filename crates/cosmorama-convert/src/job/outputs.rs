@@ -67,9 +67,9 @@ impl Outputs {
     }
 
     /// Returns the frames of an input whose light is read, without any output.
-    pub(crate) fn none(input: &Input) -> Self {
+    pub(crate) fn none(args: &Conversion, input: &Input) -> Self {
         let frames = input.frames.iter().map(|frame| FrameOutputs { frame: *frame, files: Vec::new() }).collect();
-        Self { frames, ..Self::default() }
+        Self { frames, go_on: go_on(args, input), ..Self::default() }
     }
 
     /// Plans the outputs of all frames, and checks them against the inputs, with what lies behind.
@@ -111,8 +111,7 @@ impl Outputs {
             }
             frames.push(FrameOutputs { frame, files });
         }
-        let go_on = args.frames.is_none() && input.is_live(&*args.files);
-        Ok(Self { frames, go_on, is_passed_on: args.sink.is_some(), _folders: made, ..Self::default() })
+        Ok(Self { frames, go_on: go_on(args, input), is_passed_on: args.sink.is_some(), _folders: made, ..Self::default() })
     }
 
     /// Returns the outputs of a frame.
@@ -138,6 +137,11 @@ impl Outputs {
         self.skipped = all - self.paths().count();
         Ok(())
     }
+}
+
+/// Returns whether frames follow until the input ends.
+fn go_on(args: &Conversion, input: &Input) -> bool {
+    args.frames.is_none() && input.is_live(&*args.files)
 }
 
 /// Space on a disk for the outputs of a job.

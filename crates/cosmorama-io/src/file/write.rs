@@ -37,7 +37,7 @@ pub fn write(path: impl AsRef<Path>, image: &EncodedImage, options: &WriteOption
 /// When [`write()`] would fail, the format does not hold several levels, or the levels' sizes or sample types do not
 /// match.
 pub fn write_levels(path: impl AsRef<Path>, levels: &[EncodedImage], options: &WriteOptions) -> Result<(), IoError> {
-    hidden(path.as_ref(), levels, options)?.appear()
+    write_hidden(path, levels, options)?.appear()
 }
 
 /// Writes a picture that is no world, such as a table: like [`write()`], but a KTX 2 file is a flat texture, not a cube, in which
@@ -55,12 +55,30 @@ pub fn write_flat(path: impl AsRef<Path>, image: &EncodedImage, options: &WriteO
     pending.finish()
 }
 
-/// Writes a picture that gets its name later, for example together with others.
+/// Writes a picture with its mip levels like [`write_levels()`]; it gets its name later, for example together with others.
 ///
 /// # Errors
-/// When [`write()`] would fail.
-pub fn write_hidden(path: impl AsRef<Path>, image: &EncodedImage, options: &WriteOptions) -> Result<Hidden, IoError> {
-    hidden(path.as_ref(), std::slice::from_ref(image), options)
+/// When [`write_levels()`] would fail.
+pub fn write_hidden(
+    path: impl AsRef<Path>,
+    levels: &[EncodedImage],
+    options: &WriteOptions,
+) -> Result<Hidden, IoError> {
+    let path = path.as_ref();
+    let format = Format::from_extension(path)?;
+    let Some((image, smaller)) = levels.split_first() else { return Err(IoError::write(path, "there is no picture")) };
+    check_can_hold(path, format, image)?;
+    if !smaller.is_empty() && !format.holds_levels() {
+        return Err(IoError::CannotHold {
+            path: path.to_owned(),
+            format,
+            found: format!("{} smaller copies of a picture", smaller.len()),
+            expected: "one picture; KTX 2, KTX, DDS and OpenEXR hold several levels".to_owned(),
+        });
+    }
+    let mut pending = Pending::create(path, &options.unfinished)?;
+    codec(path, format)?.encode_levels(path, pending.writer(), levels, options)?;
+    pending.close()
 }
 
 /// Encodes a picture to memory, or to any other writer. `name` is the file's name in messages.
@@ -77,23 +95,6 @@ pub fn write_to(
     let name = name.as_ref();
     check_can_hold(name, format, image)?;
     codec(name, format)?.encode(name, &mut output, image, options)
-}
-
-fn hidden(path: &Path, levels: &[EncodedImage], options: &WriteOptions) -> Result<Hidden, IoError> {
-    let format = Format::from_extension(path)?;
-    let Some((image, smaller)) = levels.split_first() else { return Err(IoError::write(path, "there is no picture")) };
-    check_can_hold(path, format, image)?;
-    if !smaller.is_empty() && !format.holds_levels() {
-        return Err(IoError::CannotHold {
-            path: path.to_owned(),
-            format,
-            found: format!("{} smaller copies of a picture", smaller.len()),
-            expected: "one picture; KTX 2, KTX, DDS and OpenEXR hold several levels".to_owned(),
-        });
-    }
-    let mut pending = Pending::create(path, &options.unfinished)?;
-    codec(path, format)?.encode_levels(path, pending.writer(), levels, options)?;
-    pending.close()
 }
 
 /// Writes named planes of numbers, as halves or floats, for data that is not a picture. The file appears whole or not
@@ -150,6 +151,18 @@ pub fn write_planes(
 /// When the extension is not OpenEXR's, the only format with named channels; when the format cannot hold the picture; when a
 /// channel has another number of samples than the picture; or when the file cannot be written.
 pub fn write_layers(path: impl AsRef<Path>, layered: LayeredImage<'_>, options: &WriteOptions) -> Result<(), IoError> {
+    write_layers_hidden(path, layered, options)?.appear()
+}
+
+/// Writes a picture with named channels like [`write_layers()`]; it gets its name later.
+///
+/// # Errors
+/// When [`write_layers()`] would fail.
+pub fn write_layers_hidden(
+    path: impl AsRef<Path>,
+    layered: LayeredImage<'_>,
+    options: &WriteOptions,
+) -> Result<Hidden, IoError> {
     let path = path.as_ref();
     let format = Format::from_extension(path)?;
     let cannot_hold =
@@ -170,7 +183,7 @@ pub fn write_layers(path: impl AsRef<Path>, layered: LayeredImage<'_>, options: 
     }
     let mut pending = Pending::create(path, &options.unfinished)?;
     codec(path, format)?.encode_layers(path, pending.writer(), layered, options)?;
-    pending.finish()
+    pending.close()
 }
 
 fn check_can_hold(path: &Path, format: Format, image: &EncodedImage) -> Result<(), IoError> {

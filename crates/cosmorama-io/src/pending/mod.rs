@@ -217,36 +217,41 @@ impl Pending {
         self.close()?.appear()
     }
 
-    /// Ends writing. The file gets its name later, so that several can appear once all are complete.
+    /// Ends writing. The file gets its name later, so that several can appear once all are complete, and waiting for the disk can be
+    /// left to another thread.
     ///
     /// # Errors
     /// When the rest cannot be written, as on a full disk.
     pub fn close(self) -> Result<Hidden, IoError> {
         // Dropped in reverse order.
-        let Self { target, listed, path, mut file } = self;
-        // On the disk before it is renamed: after a power cut there is no file of that name that is not whole.
-        let flushed = file.flush().and_then(|()| sync(file.get_ref()));
-        drop(file);
-        flushed.and_then(|()| keep_permissions(&target, &path)).map_err(|error| IoError::write(&target, error))?;
-        Ok(Hidden { target, path, _listed: listed })
+        let Self { target, listed, path, file } = self;
+        let file = file.into_inner().map_err(|failed| IoError::write(&target, failed.error()))?;
+        keep_permissions(&target, &path).map_err(|error| IoError::write(&target, error))?;
+        Ok(Hidden { target, file, path, _listed: listed })
     }
 }
 
 /// A complete file without its name. Dropped without [`Hidden::appear`], it leaves nothing behind.
+#[must_use = "a file that does not appear is deleted"]
 pub struct Hidden {
     target: PathBuf,
-    // Fields are dropped in order: the file is deleted or renamed before it is removed from the list.
+    // Fields are dropped in order: the file is closed, then deleted or renamed, then removed from the list.
+    file: File,
     path: TempPath,
     _listed: Listed,
 }
 
 impl Hidden {
-    /// Gives the file its name; an older file is replaced.
+    /// Waits until the file is on its disk, and gives it its name; an older file is replaced.
     ///
     /// # Errors
-    /// When the file cannot be renamed.
+    /// When the disk fails, or the file cannot be renamed.
     pub fn appear(self) -> Result<(), IoError> {
-        let Self { target, _listed: _last, path } = self;
+        let Self { target, _listed: _last, path, file } = self;
+        // On the disk before it is renamed: after a power cut there is no file of that name that is not whole.
+        let synced = sync(&file);
+        drop(file);
+        synced.map_err(|error| IoError::write(&target, error))?;
         path.persist(&target).map_err(|failed| IoError::write(&target, failed.error))
     }
 }

@@ -34,7 +34,7 @@ pub(super) fn write(
     for ((index, guide), path) in layers().zip(&files) {
         let layer = guide.picture(&views, index);
         let encoded = EncodedImage::encode(&layer, Channels::Rgba, Depth::Eight, &Transfer::Srgb);
-        drawn.push(write_hidden(path, &encoded, &options)?);
+        drawn.push(write_hidden(path, &[encoded], &options)?);
     }
     // All layers, or none.
     drawn.into_iter().try_for_each(Hidden::appear)?;

@@ -177,16 +177,19 @@ fn series(pattern: &Name) -> Result<ViewFiles> {
 }
 
 /// Puts what the decoder of a video says of frames into their places, when it has said all: of those that it left out, and of those that
-/// it handed out and complained of later.
-fn tell_reasons(frames: &mut [Frame], video: &Path, videos: &Videos) -> Result<()> {
+/// it handed out and complained of later. A frame after all that were announced is a further one.
+fn tell_reasons(frames: &mut Vec<Frame>, video: &Path, videos: &Videos) -> Result<()> {
     videos.end()?;
     let faults = videos.faults(video)?;
-    for frame in frames {
+    for frame in frames.iter_mut() {
         let reason = faults.iter().find(|(range, _)| range.contains(&frame.number)).map(|(_, reason)| reason);
         if let Some(reason) = reason {
             frame.found = Found::Damage(reason.clone());
         }
     }
+    let after = videos.count(video)?.filter(|after| frames.last().is_some_and(|last| last.number < *after));
+    let further = faults.into_iter().filter(|(range, _)| Some(range.start) == after);
+    frames.extend(further.map(|(range, reason)| Frame { number: range.start, found: Found::Damage(reason) }));
     Ok(())
 }
 

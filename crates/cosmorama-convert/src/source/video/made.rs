@@ -101,7 +101,9 @@ impl MadeVideos {
             info = videos.info(&shown.video)?;
             rate = rate.or(videos.rate(&shown.video)?);
         }
-        let timeline = info.as_ref().filter(|info| info.is_variable).map(timeline).transpose()?;
+        // At another rate, frames do not keep their times, and no sound goes along.
+        let has_times = |info: &&VideoInfo| info.is_variable && rate.is_none_or(|rate| ratio(rate) == info.rate);
+        let timeline = info.as_ref().filter(has_times).map(timeline).transpose()?;
         let frames = plan.source.as_ref().map(|source| &source.frames[..]);
         let source =
             info.as_ref().zip(frames).map(|(info, frames)| Shown { info, frames, timeline: timeline.as_ref() });
@@ -258,6 +260,10 @@ fn rate_of(times: FrameTimes) -> Ratio {
     }
 }
 
+fn ratio(rate: FrameRate) -> Ratio {
+    Ratio::new(rate.frames.into(), rate.seconds.into()).unwrap_or(Ratio::ONE)
+}
+
 fn codec(plan: &VideoPlan) -> Result<Option<Codec>> {
     let Some(name) = &plan.settings.codec else { return Ok(None) };
     let known = || Codec::ALL.map(Codec::name).join(", ");
@@ -271,10 +277,7 @@ fn times(
     source: Option<Shown>,
     told: &mut Vec<Diagnostic>,
 ) -> (FrameTimes, Vec<i64>) {
-    let even = |rate: FrameRate| -> FrameTimes {
-        let ratio = Ratio::new(rate.frames.into(), rate.seconds.into()).unwrap_or(Ratio::ONE);
-        FrameTimes::Even { rate: ratio }
-    };
+    let even = |rate: FrameRate| FrameTimes::Even { rate: ratio(rate) };
     if let Some(rate) = rate {
         return (even(rate), Vec::new());
     }

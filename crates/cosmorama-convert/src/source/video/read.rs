@@ -192,13 +192,16 @@ impl Videos {
         self.sources().values().try_for_each(|source| source.end()).map_err(foreign)
     }
 
-    /// Ends the decoder of a video, and returns the frames that were damaged or missing, with the reasons.
+    /// Ends the decoder of a video, and returns the frames that were damaged, missing or not announced, with the reasons.
     pub(crate) fn faults(&self, video: &Path) -> Result<Vec<(Range<u64>, String)>, IoError> {
         let source = self.source(video)?;
         let mut state = source.state();
         state.close();
         let ranged = |(first, (count, reason)): (&u64, &(u64, String))| (*first..first + count, reason.clone());
-        Ok(state.faults.iter().map(ranged).collect())
+        let announced = source.count;
+        let words = || format!("it comes after the {announced} frames that the video announces, and is left out");
+        let further = state.has_more.then(|| (announced..announced + 1, words()));
+        Ok(state.faults.iter().map(ranged).chain(further).collect())
     }
 
     /// Returns messages about frames that were damaged, and about frames that were not announced; an item for each video.
