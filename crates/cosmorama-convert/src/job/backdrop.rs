@@ -176,7 +176,7 @@ impl FoundBackdrop {
             filter: front.filter,
             light,
             layers: LayerPlan::default(),
-            outputs: Outputs::none(settings, &input),
+            outputs: Outputs::none(&settings, &input),
             origin: None,
             coverage: Coverage::Complete,
             lighting: None,
