@@ -92,10 +92,11 @@ impl Checked {
             }
             all => all.join(", "),
         };
-        let to = geometry
-            .to
-            .as_ref()
-            .map_or_else(|| "cube, because its name has faces".to_owned(), |to| format!("{to}, as {TO} says"));
+        let to = match &geometry.to {
+            Some(to) => format!("{to}, as {TO} says"),
+            None if self.settings.output.contains("{face}") => "cube, because its name has faces".to_owned(),
+            None => "what such files usually are".to_owned(),
+        };
         let why = match geometry.size {
             Some(_) => format!("as {SIZE} says"),
             None if self.content.has_files() => "as fine as the input at the centre".to_owned(),

@@ -19,6 +19,6 @@ pub use filters::{FilterReport, FilterTrial, FilterTrials};
 pub use observer::{Observer, Quiet, Stop, Work};
 pub use report::Report;
 pub use verify::{Fault, Faults, SheetLayout, Verification, Verified, check_sheet};
-pub use world_light::{Radiance, WorldHarmonics, WorldLight, WorldSuns};
+pub use world_light::{Radiance, WorldHarmonics, WorldLight, WorldSuns, WorldTable};
 
 pub(crate) use advance::watched;

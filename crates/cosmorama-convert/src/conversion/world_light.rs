@@ -14,7 +14,8 @@ use rayon::ThreadPool;
 
 use super::check::threads;
 use super::run::light_of;
-use crate::diagnostic::{Diagnostic, FRAMES, Outcome, Result, TO, bail, usage};
+use crate::diagnostic::{Code, Diagnostic, FRAMES, Outcome, Result, TO, bail, usage};
+use crate::engine::warnings::Tally;
 use crate::engine::{Engine, FrameLight, Stages, Texels, WriterOptions, light_of_unseen};
 use crate::job::options::write_options;
 use crate::job::{Content, ConvertJob, Purpose, files_read};
@@ -80,6 +81,17 @@ pub struct WorldSuns {
     pub light: LightFigures,
     /// Figures of the light without them.
     pub left: LightFigures,
+    /// Samples of the picture without them that are cut, because they are brighter than its file can say.
+    pub overflowed: usize,
+}
+
+/// Colours of a world by one angle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WorldTable {
+    /// Colours.
+    pub table: ColourTable,
+    /// Figures of the light itself.
+    pub light: LightFigures,
 }
 
 impl Conversion {
@@ -150,16 +162,12 @@ impl WorldLight {
     ///
     /// # Errors
     /// When a file cannot be read, its content contradicts its header, or there is no table of so many colours.
-    pub fn colour_table(
-        &self,
-        axes: (TableAngle, Orientation),
-        count: usize,
-    ) -> Result<(ColourTable, Vec<Diagnostic>)> {
+    pub fn colour_table(&self, axes: (TableAngle, Orientation), count: usize) -> Result<(WorldTable, Vec<Diagnostic>)> {
         self.pool.install(|| {
             let (light, diagnostics) = self.read()?;
             let (world, shown) = self.shown(&light)?;
             match ColourTable::of_texels(world, shown, axes, count) {
-                Ok(table) => Ok((table, diagnostics)),
+                Ok(table) => Ok((WorldTable { table, light: LightFigures::of(world, shown.0) }, diagnostics)),
                 Err(error) => Err(usage(format!("{error}"))),
             }
         })
@@ -189,6 +197,12 @@ impl WorldLight {
     /// When the input is more than one picture, or the file's extension is that of no picture.
     pub fn check_picture(&self, path: &Path) -> Result<()> {
         let views: usize = self.job.worlds.iter().map(|world| world.sources().len()).sum();
+        if path.to_string_lossy().contains(FACE) {
+            return Err(usage(format!(
+                "{} has {FACE}, but light is taken out of single pictures; name one file, and make faces of it with convert",
+                path.display()
+            )));
+        }
         if views != 1 {
             return Err(usage(format!(
                 "{} has {views} views, and light is taken out of single pictures; make one of it first, with convert and {TO} equirect",
@@ -216,28 +230,35 @@ impl WorldLight {
     /// When a file cannot be read, its content contradicts its header, or the picture cannot be written.
     pub fn suns(&self, without: Option<&Path>) -> Result<(WorldSuns, Vec<Diagnostic>)> {
         self.pool.install(|| {
-            let (light, diagnostics) = self.read()?;
+            let (light, mut diagnostics) = self.read()?;
             let (world, texels) = self.first(&light)?;
+            let figures = LightFigures::of(world, texels);
+            if figures.shown <= 0.0 {
+                bail!(NotANumber: "{}: no pixel is a number; render it again", self.settings.input);
+            }
             let suns = Suns::find(world, texels);
             let left = suns.without(texels);
-            let found =
-                WorldSuns { light: LightFigures::of(world, texels), left: LightFigures::of(world, &left), suns };
+            let mut found = WorldSuns { light: figures, left: LightFigures::of(world, &left), suns, overflowed: 0 };
             if let Some(path) = without {
                 self.check_picture(path)?;
-                self.write(path, (world, left))?;
+                found.overflowed = self.write(path, (world, left))?;
+                diagnostics.extend(too_bright(path, found.overflowed));
             }
             Ok((found, diagnostics))
         })
     }
 
-    /// Writes the light of a single picture.
-    fn write(&self, path: &Path, (world, texels): (&World, Vec<Rgba>)) -> Result<()> {
+    /// Writes the light of a single picture. Returns the number of samples that are cut.
+    fn write(&self, path: &Path, (world, texels): (&World, Vec<Rgba>)) -> Result<usize> {
         let view = &world.sources()[0].view;
         let format = Format::from_extension(path)?;
         let depth = format.depths().last().copied().unwrap_or(Depth::Eight);
         let transfer = if depth.is_float() { Transfer::Linear } else { Transfer::Srgb };
         let is_opaque = texels.iter().all(|texel| texel.alpha() >= 1.0);
         let channels = format.nearest_channels(if is_opaque { Channels::Rgb } else { Channels::Rgba });
+        let most = |texel: &Rgba| ROUNDING * depth.most() * texel.alpha();
+        let cut = |texel: &Rgba| texel.0[..3].iter().filter(|light| **light > most(texel)).count();
+        let overflowed = texels.iter().map(cut).sum();
         let Ok(image) = Image::new(view.width(), view.height(), texels) else {
             bail!("light of another size than its view")
         };
@@ -245,7 +266,8 @@ impl WorldLight {
         let envmap = self.job.input.envmap();
         let options = write_options(&self.settings, format, &self.job.outputs, &self.job.light);
         let metadata = Metadata { transfer: Some(transfer), envmap, remarks: Vec::new(), ..options.metadata };
-        Ok(write(path, &encoded, &WriteOptions { metadata, ..options })?)
+        write(path, &encoded, &WriteOptions { metadata, ..options })?;
+        Ok(overflowed)
     }
 
     /// Returns the first world with its light, and the light of what it does not show.
@@ -265,7 +287,10 @@ impl WorldLight {
         };
         let Some(frame) = job.outputs.frames.first() else { bail!("no frame to read") };
         let light = light_of(job, &engine, &Stages::default(), frame)?;
-        let diagnostics = engine.warnings(frame.frame, &light).into_iter().chain(engine.continuity(&light)).collect();
+        let mut tally = Tally::default();
+        tally.add(job, frame.frame, &light);
+        let told = engine.warnings(frame.frame, &light).into_iter().chain(engine.continuity(&light));
+        let diagnostics = told.chain(tally.warnings(job)).collect();
         Ok((light, diagnostics))
     }
 
@@ -276,4 +301,18 @@ impl WorldLight {
             _ => bail!("light of 8 bits where floats were expected"),
         }
     }
+}
+
+/// Part of the brightest code that rounding forgives.
+const ROUNDING: f32 = 1.002;
+
+/// Place in a name where those of faces stand.
+const FACE: &str = "{face}";
+
+/// Returns the warning about light that a picture's samples cannot hold.
+fn too_bright(path: &Path, samples: usize) -> Option<Diagnostic> {
+    let path = path.display();
+    let message =
+        format!("{path}: {samples} samples are brighter than it can say, and are cut; write OpenEXR or Radiance");
+    (samples > 0).then(|| Diagnostic::warning(Code::TooBright, message).about(&path))
 }

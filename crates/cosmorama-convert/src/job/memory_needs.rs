@@ -14,8 +14,8 @@ use crate::diagnostic::{CHANNELS, EVERY, Result, SHUTTER};
 use crate::input::{Input, InputView};
 use crate::job::{FrameMemory, QueueDepth};
 use crate::source::MemoryBudget;
-use crate::source::video::RawKind;
 use crate::source::memory_budget::{area, human, read_bytes};
+use crate::source::video::RawKind;
 use crate::target::{Sheet, Target};
 
 /// Bytes in which a job holds a texel of light, a pixel of a picture, and a pixel of its file's samples.

@@ -111,7 +111,13 @@ impl Outputs {
             }
             frames.push(FrameOutputs { frame, files });
         }
-        Ok(Self { frames, go_on: go_on(args, input), is_passed_on: args.sink.is_some(), _folders: made, ..Self::default() })
+        Ok(Self {
+            frames,
+            go_on: go_on(args, input),
+            is_passed_on: args.sink.is_some(),
+            _folders: made,
+            ..Self::default()
+        })
     }
 
     /// Returns the outputs of a frame.

@@ -1,3 +1,4 @@
+use std::f64::consts::FRAC_2_SQRT_PI;
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::Path;
@@ -133,6 +134,8 @@ pub(super) fn missed(SeriesAccuracy { rms_error, least, negative }: SeriesAccura
 /// Returns the report for programs.
 fn report(args: &HarmonicsArgs, found: &WorldHarmonics, kind: HarmonicKind) -> Result<String> {
     let LightFigures { mean, peak, suns, shown } = found.light;
+    // The mean over the sphere of the function of order 0, which is 1/(2√π) everywhere.
+    let kept = found.harmonics.coefficients()[0].map(|light| 0.25 * FRAC_2_SQRT_PI * light);
     let json = json!({
         "output": args.output.display().to_string(),
         "order": args.order,
@@ -141,6 +144,7 @@ fn report(args: &HarmonicsArgs, found: &WorldHarmonics, kind: HarmonicKind) -> R
         "radiance": missed(found.accuracy.radiance),
         "irradiance": missed(found.accuracy.irradiance),
         "energy_in": mean,
+        "energy_out": kept,
         "peak_in": peak,
         "brightest_texels_share": suns,
         "shown": shown,

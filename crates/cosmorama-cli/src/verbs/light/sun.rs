@@ -153,6 +153,7 @@ fn of_frame(Found { frame, output, suns: found }: &Found) -> Value {
         "peak_out": found.left.peak,
         "brightest_texels_share": found.light.suns,
         "shown": found.light.shown,
+        "overflowed_samples": found.overflowed,
     });
     if let Some(frame) = frame {
         json["frame"] = json!(frame);

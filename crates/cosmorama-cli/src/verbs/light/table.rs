@@ -4,11 +4,11 @@ use std::process::ExitCode;
 
 use anyhow::{Context, Result};
 use cosmorama::camera::{CameraModel, EquirectCamera};
-use cosmorama::lighting::ColourTable;
+use cosmorama::lighting::{ColourTable, LightFigures};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
 use cosmorama::sphere::Direction;
 use cosmorama_builtin::picture;
-use cosmorama_convert::{Conversion, WorldLight, check_apart, threads};
+use cosmorama_convert::{Conversion, WorldLight, WorldTable, check_apart, threads};
 use cosmorama_io::pending::Pending;
 use cosmorama_io::{Format, Metadata, WriteOptions, write};
 use cosmorama_spec::{DepthName, colour_table_csv, colour_table_of_csv, colour_table_of_stops};
@@ -45,7 +45,7 @@ pub(super) fn run(mut args: TableArgs, console: &mut Console) -> Result<ExitCode
     };
     let _folders = prepare_output(&args.output, args.world.file, console)?;
     let is_world = matches!(source, Source::World(_));
-    let table = source.table(&args, console)?;
+    let (table, light) = source.table(&args, console)?;
     let overflowed = match form {
         Form::Csv => {
             let mut file = Pending::create(&args.output, &console.unfinished)?;
@@ -61,7 +61,7 @@ pub(super) fn run(mut args: TableArgs, console: &mut Console) -> Result<ExitCode
         }
     };
     if args.world.json {
-        console.print(&report(&args, &table, overflowed)?)?;
+        console.print(&report(&args, (&table, light), overflowed)?)?;
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -73,14 +73,16 @@ enum Source {
 }
 
 impl Source {
-    fn table(self, args: &TableArgs, console: &Console) -> Result<ColourTable> {
+    /// Returns the table and, of a world, figures of its light.
+    fn table(self, args: &TableArgs, console: &Console) -> Result<(ColourTable, Option<LightFigures>)> {
         match self {
-            Self::Table(table) => Ok(table),
+            Self::Table(table) => Ok((table, None)),
             Self::World(light) => {
                 let axes = (args.by.into(), args.frame());
-                let (table, diagnostics) = light.colour_table(axes, args.size.unwrap_or(COLOURS))?;
+                let (WorldTable { table, light }, diagnostics) =
+                    light.colour_table(axes, args.size.unwrap_or(COLOURS))?;
                 diagnostics.iter().for_each(|diagnostic| console.warn(diagnostic));
-                Ok(table)
+                Ok((table, Some(light)))
             }
         }
     }
@@ -175,14 +177,20 @@ fn write_picture(args: &TableArgs, format: Format, image: &Image<Rgba>, console:
 }
 
 /// Returns the report for programs.
-fn report(args: &TableArgs, table: &ColourTable, overflowed: usize) -> Result<String> {
+fn report(args: &TableArgs, (table, light): (&ColourTable, Option<LightFigures>), overflowed: usize) -> Result<String> {
     let peak = table.stops().iter().flat_map(|(_, colour)| colour).copied().fold(0.0, f64::max);
-    let json = json!({
+    let mut json = json!({
         "output": args.output.display().to_string(),
         "colours": table.stops().len(),
         "energy_out": table.mean(),
         "peak_out": peak,
         "overflowed_samples": overflowed,
     });
+    if let Some(LightFigures { mean, peak, suns, shown }) = light {
+        json["energy_in"] = json!(mean);
+        json["peak_in"] = json!(peak);
+        json["brightest_texels_share"] = json!(suns);
+        json["shown"] = json!(shown);
+    }
     Ok(serde_json::to_string_pretty(&json)? + "\n")
 }
