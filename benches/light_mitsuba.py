@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A map of diffuse light by Mitsuba's sampling of a panorama: CPU-seconds and noise, beside a map without noise.
 
-    python benches/light_mitsuba.py SKY.hdr TRUTH.exr SAMPLES     prints JSON: {"seconds": CPU-s, "rms": error in parts of the peak}
+    python benches/light_mitsuba.py SKY.hdr TRUTH.exr SAMPLES     prints JSON: {"seconds": CPU-s, "rms": error in parts of the map}
 
 The truth is radiance-normalised, of a panorama, as `light diffuse --exact` writes it. Seconds are those of the process without its start and
 without reading files; compiling the loop and the sampling table are counted. PyPI's mitsuba, with an LLVM that it likes: Debian's libllvm19.
@@ -40,7 +40,8 @@ def main() -> None:
     drjit.sync_thread()
     seconds = time.process_time() - begun
     errors = [made[k] - drjit.gather(Float, truth.array, 3 * pixel + k) for k in range(3)]
-    rms = math.sqrt(sum(float(drjit.mean(error * error)[0]) for error in errors) / 3) / float(drjit.max(truth.array)[0])
+    rms = math.sqrt(sum(float(drjit.mean(error * error)[0]) for error in errors) / 3)
+    rms /= math.sqrt(float(drjit.mean(truth.array * truth.array)[0]))
     print(json.dumps({"seconds": seconds, "rms": rms}))
 
 

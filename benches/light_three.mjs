@@ -14,7 +14,7 @@ const [modules, sky] = process.argv.slice(2);
 const puppeteer = createRequire(join(modules, "any.js"))("puppeteer-core");
 const [EDGE, LEVELS] = [256, 5];
 
-/** CPU-seconds so far of a process and all below it. */
+/** CPU-seconds so far of a process and all below it. Linux counts them in hundredths. */
 function cpuSeconds(root) {
     const all = new Map();
     for (const pid of readdirSync("/proc").filter(name => /^\d+$/.test(name))) {
@@ -76,13 +76,13 @@ window.energies = levels => [...Array(levels).keys()].map(level => energy(made, 
 window.isReady = true;
 </script>`;
 
-const TYPES = {".js": "text/javascript", ".html": "text/html"};
+const TYPES = {".js": "text/javascript"};
 const server = createServer((request, response) => {
     const path = request.url === "/sky.hdr" ? sky : join(modules, request.url);
     try {
         response.setHeader("Content-Type", TYPES[extname(path)] ?? "application/octet-stream");
         response.end(request.url === "/" ? (response.setHeader("Content-Type", "text/html"), PAGE) : readFileSync(path));
-    } catch (error) {
+    } catch {
         response.writeHead(404).end();
     }
 }).listen(0, "127.0.0.1");

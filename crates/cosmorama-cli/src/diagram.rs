@@ -26,9 +26,7 @@ pub(crate) fn draw(folder: &Path, name: &str, drawing: &str, unfinished: &Unfini
 
 /// Writes a drawing as [`draw`] does, and returns the files' names.
 pub(crate) fn save(folder: &Path, name: &str, drawing: &str, unfinished: &Unfinished) -> Result<Vec<PathBuf>> {
-    for file in draw(folder, name, drawing, unfinished)? {
-        file.appear()?;
-    }
+    Hidden::appear_all(draw(folder, name, drawing, unfinished)?)?;
     Ok(files(folder, name))
 }
 

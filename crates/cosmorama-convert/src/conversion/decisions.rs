@@ -95,7 +95,8 @@ impl Checked {
         let to = match &geometry.to {
             Some(to) => format!("{to}, as {TO} says"),
             None if self.settings.output.contains("{face}") => "cube, because its name has faces".to_owned(),
-            None => "what such files usually are".to_owned(),
+            None if target.views.len() > 1 => "cube, as its format is".to_owned(),
+            None => format!("equirect, since {TO} says nothing else"),
         };
         let why = match geometry.size {
             Some(_) => format!("as {SIZE} says"),

@@ -118,7 +118,9 @@ impl Checked {
             [] => Ok(Vec::new()),
             [frame] if !job.outputs.go_on => run.still(frame).map(|()| Vec::new()),
             _ => {
-                let disks = &threads(Some(engine.queue_depth().written.min(MOST_WAITING)))?;
+                // Pictures of videos wait for no disk.
+                let waiting = if job.target.format.is_video() { 1 } else { engine.queue_depth().written };
+                let disks = &threads(Some(waiting.min(MOST_WAITING)))?;
                 let sequence = Sequence { job, engine, stages, pool, disks };
                 stages.among(Stage::Filter, || sequence.run(&mut run))
             }

@@ -3,11 +3,11 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use cosmorama::lighting::{
-    AllTexels, ColourTable, HarmonicAccuracy, HarmonicBasis, HarmonicWindow, Harmonics, LightFigures, Lobe,
-    LobeAverages, Suns, TableAngle,
+    AllTexels, ColourTable, HarmonicAccuracy, HarmonicBasis, HarmonicFunctions, HarmonicWindow, Harmonics,
+    LightFigures, Lobe, LobeAverages, Suns, TableAngle,
 };
 use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Primaries, Rgba, Transfer};
-use cosmorama::sphere::Orientation;
+use cosmorama::sphere::{Direction, Orientation};
 use cosmorama::world::{Light, World};
 use cosmorama_io::{EnvMap, Format, Metadata, WriteOptions, write};
 use rayon::ThreadPool;
@@ -68,6 +68,8 @@ pub struct WorldHarmonics {
     pub harmonics: Harmonics,
     /// Part of the light that they miss.
     pub accuracy: HarmonicAccuracy,
+    /// Mean of their radiance over the sphere.
+    pub mean: [f64; 3],
     /// Figures of the light itself.
     pub light: LightFigures,
 }
@@ -79,7 +81,7 @@ pub struct WorldSuns {
     pub suns: Suns,
     /// Figures of the light itself.
     pub light: LightFigures,
-    /// Figures of the light without them.
+    /// Figures of the light without them, before any sample is cut.
     pub left: LightFigures,
     /// Samples of the picture without them that are cut, because they are brighter than its file can say.
     pub overflowed: usize,
@@ -154,7 +156,10 @@ impl WorldLight {
             let exact = Harmonics::of_texels(world, shown, order, basis).map_err(|error| usage(format!("{error}")))?;
             let harmonics = window.map_or_else(|| exact.clone(), |window| exact.windowed(window));
             let accuracy = HarmonicAccuracy::of(world, shown, &exact, &harmonics);
-            Ok((WorldHarmonics { harmonics, accuracy, light: LightFigures::of(world, shown.0) }, diagnostics))
+            // The function of order 0 is the same everywhere, and the means of all others are 0.
+            let constant = HarmonicFunctions::new(0, basis).at(Direction::FRONT)[0];
+            let mean = harmonics.coefficients()[0].map(|light| constant * light);
+            Ok((WorldHarmonics { harmonics, accuracy, mean, light: LightFigures::of(world, shown.0) }, diagnostics))
         })
     }
 
@@ -312,7 +317,8 @@ const FACE: &str = "{face}";
 /// Returns the warning about light that a picture's samples cannot hold.
 fn too_bright(path: &Path, samples: usize) -> Option<Diagnostic> {
     let path = path.display();
+    let are = if samples == 1 { "sample is" } else { "samples are" };
     let message =
-        format!("{path}: {samples} samples are brighter than it can say, and are cut; write OpenEXR or Radiance");
+        format!("{path}: {samples} {are} brighter than it can say, and cut to white; write OpenEXR or Radiance");
     (samples > 0).then(|| Diagnostic::warning(Code::TooBright, message).about(&path))
 }

@@ -2,7 +2,7 @@
 //!
 //! One scheduling thread has files read ahead, filters the current frame, and has pictures written behind. All work runs in
 //! one thread pool, so that codecs and the filter share the cores. Pool threads never block on a queue; only the scheduling
-//! thread does. Nor do they wait until a file is on its disk: further threads do. Both queues are bounded, and keep the frames' order.
+//! thread does. They do not wait for disks; the threads of a second pool do. Both queues are bounded, and keep the frames' order.
 
 use std::borrow::Cow;
 use std::collections::VecDeque;
@@ -63,8 +63,7 @@ struct Queues<'a> {
 type Upcoming<'a> = Peekable<Box<dyn Iterator<Item = (usize, Cow<'a, FrameOutputs>)> + 'a>>;
 
 impl<'a> Sequence<'a> {
-    /// Makes all frames. The first error ends the run: frames before it, and those in progress, are finished, and no
-    /// other is begun.
+    /// Makes all frames. The first error ends the run: frames before it are finished, those behind it may be, and no other is begun.
     pub(crate) fn run(&self, watcher: &mut dyn Watcher) -> Result<Vec<InterpolationReport>> {
         let failure = &FirstFailure::none();
         let mut queues = Queues::default();
@@ -295,7 +294,12 @@ impl<'s, 'd> Turn<'_, 's, 'd> {
                 return;
             }
             match task() {
-                Ok(Some(file)) => disk.spawn(move |_| answer.give(file.appear().map_err(Into::into))),
+                Ok(Some(file)) => disk.spawn(move |_| {
+                    // It may have waited for its turn.
+                    if !answer.is_late() {
+                        answer.give(file.appear().map_err(Into::into));
+                    }
+                }),
                 written => answer.give(written.map(|_| ())),
             }
         });

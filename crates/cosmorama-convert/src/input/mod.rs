@@ -21,6 +21,7 @@ pub use lists::listing::Listed;
 pub(crate) use faces::face_file::Face;
 pub(crate) use faces::face_shape::FacePicture;
 
+use std::collections::HashSet;
 use std::path::PathBuf;
 
 use cosmorama::camera::View;
@@ -28,7 +29,11 @@ use cosmorama_io::{EnvMap, Header, Pose};
 
 use crate::detect::GivenFaces;
 use crate::diagnostic::{Code, Diagnostic, FROM, Result, TO};
+use crate::source::memory_budget::read_bytes;
 use crate::source::{Access, Files};
+
+/// Pictures of a stream beside those of frames: one that is being read, one that has come, and the first.
+const AHEAD: u64 = 3;
 
 /// The input of a conversion: views, frames and files.
 pub struct Input {
@@ -156,6 +161,14 @@ impl Input {
     /// Returns whether it is a stream that is read as it comes.
     pub(crate) fn is_live(&self, files: &dyn Files) -> bool {
         self.present().filter_map(|(view, ..)| view.files.video()).any(|video| files.live(video).is_some())
+    }
+
+    /// Returns the bytes of the pictures that streams hold beside those of frames.
+    pub(crate) fn ahead_bytes(&self, files: &dyn Files) -> u64 {
+        let mut seen = HashSet::new();
+        let live = self.present().filter_map(|(view, header, _)| Some((view.files.video()?, header)));
+        let live = live.filter(|(video, _)| files.live(video).is_some() && seen.insert(video.to_path_buf()));
+        live.map(|(_, header)| AHEAD.saturating_mul(read_bytes(header))).fold(0, u64::saturating_add)
     }
 
     /// Tells the videos which of their frames will be read.

@@ -352,7 +352,9 @@ impl ConvertJob {
     /// Returns the memory that its frames need, without what lies behind and without further channels.
     pub(crate) fn frame_needs(&self) -> FrameNeeds {
         let held = if self.fixed_codec().is_some() { Held::INTEGERS } else { Held::floats(&self.light) };
-        let needs = FrameNeeds::of(&self.input, &self.worlds, &self.target, held).with_prepared(self.prepared);
+        let needs = FrameNeeds::of(&self.input, &self.worlds, &self.target, held)
+            .with_prepared(self.prepared)
+            .beside_streams(self.input.ahead_bytes(&*self.files));
         let is_one = self.input.frames.len() <= 1 && !self.outputs.are_many();
         let needs = if is_one { needs } else { needs.of_many() };
         if self.filter.kind != FilterKind::Ewa || self.lighting.is_some() {

@@ -15,7 +15,6 @@ use crate::input::{Input, InputView};
 use crate::job::{FrameMemory, QueueDepth};
 use crate::source::MemoryBudget;
 use crate::source::memory_budget::{area, human, read_bytes};
-use crate::source::video::RawKind;
 use crate::target::{Sheet, Target};
 
 /// Bytes in which a job holds a texel of light, a pixel of a picture, and a pixel of its file's samples.
@@ -152,6 +151,11 @@ impl FrameNeeds {
         Self { prepared: self.prepared.saturating_add(bytes), ..self }
     }
 
+    /// Adds pictures that streams hold beside those of frames.
+    pub(crate) fn beside_streams(self, bytes: u64) -> Self {
+        Self { shared: self.shared.saturating_add(bytes), ..self }
+    }
+
     /// Returns the needs of one frame of many.
     pub(crate) fn of_many(self) -> Self {
         Self { samples: Samples { is_kept: true, ..self.samples }, ..self }
@@ -183,9 +187,6 @@ impl FrameNeeds {
     }
 }
 
-/// Pictures of a stream beside those of its frames: one that is being read, one that has come, and the first.
-const AHEAD: u64 = 3;
-
 impl Samples {
     fn of(input: &Input) -> Self {
         let mut found = Self::default();
@@ -193,8 +194,7 @@ impl Samples {
             // Parts of a file, and turned pictures, are copies beside the whole.
             let is_copied = view.part.is_some() || header.metadata.orientation.is_some();
             let bytes = read_bytes(header).saturating_mul(if is_copied { 2 } else { 1 });
-            let ahead = if view.files.video().and_then(RawKind::of).is_some() { AHEAD } else { 0 };
-            found.all = found.all.saturating_add(bytes.saturating_mul(1 + ahead));
+            found.all = found.all.saturating_add(bytes);
             found.scratch = found.scratch.saturating_add(scratch_bytes(header));
             if view.files.has_frames() {
                 found.moving = found.moving.saturating_add(bytes);

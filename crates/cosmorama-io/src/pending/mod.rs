@@ -14,7 +14,7 @@ mod sweep;
 
 use std::collections::BTreeSet;
 use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, Weak};
 
@@ -217,8 +217,8 @@ impl Pending {
         self.close()?.appear()
     }
 
-    /// Ends writing. The file gets its name later, so that several can appear once all are complete, and waiting for the disk can be
-    /// left to another thread.
+    /// Ends writing. The file gets its name later, so that several can appear together, and waiting for the disk can be left to another
+    /// thread.
     ///
     /// # Errors
     /// When the rest cannot be written, as on a full disk.
@@ -247,12 +247,22 @@ impl Hidden {
     /// # Errors
     /// When the disk fails, or the file cannot be renamed.
     pub fn appear(self) -> Result<(), IoError> {
-        let Self { target, _listed: _last, path, file } = self;
+        Self::appear_all([self])
+    }
+
+    /// Waits until all of some files are on their disks, and then gives each its name. If one of them cannot be kept, none appears.
+    ///
+    /// # Errors
+    /// When a disk fails, or a file cannot be renamed.
+    pub fn appear_all(files: impl IntoIterator<Item = Self>) -> Result<(), IoError> {
+        let files: Vec<Self> = files.into_iter().collect();
         // On the disk before it is renamed: after a power cut there is no file of that name that is not whole.
-        let synced = sync(&file);
-        drop(file);
-        synced.map_err(|error| IoError::write(&target, error))?;
-        path.persist(&target).map_err(|failed| IoError::write(&target, failed.error))
+        let settle = |hidden: &Self| sync(&hidden.file).map_err(|error| IoError::write(&hidden.target, error));
+        files.iter().try_for_each(settle)?;
+        files.into_iter().try_for_each(|Self { target, file, path, _listed: _last }| {
+            drop(file);
+            path.persist(&target).map_err(|failed| IoError::write(&target, failed.error))
+        })
     }
 }
 

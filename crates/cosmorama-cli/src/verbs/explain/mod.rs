@@ -98,7 +98,7 @@ pub(super) fn run(mut args: ExplainArgs, console: &mut Console) -> Result<ExitCo
         }
     }
     // All diagrams, or none.
-    drawn.into_iter().try_for_each(Hidden::appear)?;
+    Hidden::appear_all(drawn)?;
     if has_input {
         for view in explanation.views_without_files().filter(|view| needed.contains(&view.name)) {
             let folder = if view.files.is_folder() { ", but a folder of this name" } else { "" };

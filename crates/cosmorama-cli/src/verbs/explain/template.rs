@@ -37,7 +37,7 @@ pub(super) fn write(
         drawn.push(write_hidden(path, &[encoded], &options)?);
     }
     // All layers, or none.
-    drawn.into_iter().try_for_each(Hidden::appear)?;
+    Hidden::appear_all(drawn)?;
     Ok(files)
 }
 

@@ -1,15 +1,15 @@
-use std::f64::consts::FRAC_2_SQRT_PI;
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::Path;
 use std::process::ExitCode;
 
 use anyhow::{Context, Result};
-use cosmorama::lighting::{CodeLanguage, HarmonicKind, HarmonicPreset, LightFigures, SeriesAccuracy, StoredHarmonics};
+use cosmorama::lighting::{CodeLanguage, HarmonicKind, HarmonicPreset, SeriesAccuracy, StoredHarmonics};
 use cosmorama_convert::{Conversion, WorldHarmonics, check_apart};
 use cosmorama_io::pending::Pending;
 use serde_json::{Value, json};
 
+use super::add_figures;
 use crate::args::HarmonicsArgs;
 use crate::console::Console;
 use crate::failure::usage;
@@ -133,22 +133,16 @@ pub(super) fn missed(SeriesAccuracy { rms_error, least, negative }: SeriesAccura
 
 /// Returns the report for programs.
 fn report(args: &HarmonicsArgs, found: &WorldHarmonics, kind: HarmonicKind) -> Result<String> {
-    let LightFigures { mean, peak, suns, shown } = found.light;
-    // The mean over the sphere of the function of order 0, which is 1/(2√π) everywhere.
-    let kept = found.harmonics.coefficients()[0].map(|light| 0.25 * FRAC_2_SQRT_PI * light);
-    let json = json!({
+    let mut json = json!({
         "output": args.output.display().to_string(),
         "order": args.order,
         "basis": args.basis.name(),
         "kind": name(kind),
         "radiance": missed(found.accuracy.radiance),
         "irradiance": missed(found.accuracy.irradiance),
-        "energy_in": mean,
-        "energy_out": kept,
-        "peak_in": peak,
-        "brightest_texels_share": suns,
-        "shown": shown,
+        "energy_out": found.mean,
     });
+    add_figures(&mut json, found.light);
     Ok(serde_json::to_string_pretty(&json)? + "\n")
 }
 

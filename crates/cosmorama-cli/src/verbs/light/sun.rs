@@ -9,6 +9,7 @@ use cosmorama_convert::{Conversion, Files, WorldSuns, check_apart, refuse_existi
 use cosmorama_io::{FrameList, FramePattern, Frames};
 use serde_json::{Value, json};
 
+use super::add_figures;
 use crate::args::SunArgs;
 use crate::console::Console;
 use crate::failure::usage;
@@ -147,14 +148,11 @@ fn of_frame(Found { frame, output, suns: found }: &Found) -> Value {
     let mut json = json!({
         "output": output.as_ref().map(|output| output.display().to_string()),
         "suns": found.suns.all().iter().map(sun).collect::<Vec<_>>(),
-        "energy_in": found.light.mean,
         "energy_out": found.left.mean,
-        "peak_in": found.light.peak,
         "peak_out": found.left.peak,
-        "brightest_texels_share": found.light.suns,
-        "shown": found.light.shown,
         "overflowed_samples": found.overflowed,
     });
+    add_figures(&mut json, found.light);
     if let Some(frame) = frame {
         json["frame"] = json!(frame);
     }

@@ -14,6 +14,7 @@ use cosmorama_io::{Format, Metadata, WriteOptions, write};
 use cosmorama_spec::{DepthName, colour_table_csv, colour_table_of_csv, colour_table_of_stops};
 use serde_json::json;
 
+use super::add_figures;
 use crate::args::TableArgs;
 use crate::console::Console;
 use crate::failure::usage;
@@ -186,11 +187,8 @@ fn report(args: &TableArgs, (table, light): (&ColourTable, Option<LightFigures>)
         "peak_out": peak,
         "overflowed_samples": overflowed,
     });
-    if let Some(LightFigures { mean, peak, suns, shown }) = light {
-        json["energy_in"] = json!(mean);
-        json["peak_in"] = json!(peak);
-        json["brightest_texels_share"] = json!(suns);
-        json["shown"] = json!(shown);
+    if let Some(light) = light {
+        add_figures(&mut json, light);
     }
     Ok(serde_json::to_string_pretty(&json)? + "\n")
 }

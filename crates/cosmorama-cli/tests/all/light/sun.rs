@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use cosmorama::raster::Depth;
+use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
 use serde_json::Value;
 
 use super::sky::{light, save_sky};
@@ -125,6 +125,60 @@ fn mistakes_about_suns_are_answered() {
     fail(1, &["sky.exr", "--remove", "a.exr"], &["a.exr exists", "--overwrite"]);
     let output = bench.run(&["light", "sun", "sky.exr", "--remove", "a.hdr"]);
     assert!(output.status.success(), "{}", text(&output.stderr));
+}
+
+/// What a file cannot say, and what is no number, is told.
+#[test]
+fn light_that_is_lost_is_told() {
+    let bench = Bench::new();
+    save_sky(&bench, "sky.exr", 64, |i, j| if (i, j) == (9, 9) { [3.0, 4.0, 0.5] } else { [0.5; 3] });
+    let lost = |output: &str| {
+        let output = bench.run(&["light", "sun", "sky.exr", "--remove", output, "--json"]);
+        let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+        (report["overflowed_samples"].as_u64(), text(&output.stderr))
+    };
+    let (samples, told) = lost("left.png");
+    assert_eq!(samples, Some(2));
+    assert_says(&told, &["left.png: 2 samples are brighter", "OpenEXR"]);
+    let (samples, told) = lost("left.exr");
+    assert!(samples == Some(0) && !told.contains("brighter"), "{told}");
+    let save = |name: &str, samples: Vec<f32>| {
+        bench.save(name, &EncodedImage::new(64, 32, Channels::Rgb, Depth::Float, Samples::Float(samples)).unwrap());
+    };
+    save("none.exr", vec![f32::NAN; 64 * 32 * 3]);
+    assert_says(
+        &bench.fail(1, &["light", "sun", "none.exr", "--remove", "left.tif"]),
+        &["none.exr", "no pixel is a number"],
+    );
+    assert_says(
+        &bench.fail(2, &["light", "sun", "sky.exr", "--remove", "left_{face}.exr"]),
+        &["{face}", "single pictures"],
+    );
+    save("bright.exr", (0..64 * 32 * 3).map(|at| if at < 3 { f32::INFINITY } else { 0.5 }).collect());
+    for args in [&["sun", "bright.exr"][..], &["table", "bright.exr", "t.csv"], &["harmonics", "bright.exr", "h.json"]]
+    {
+        let output = bench.run(&[&["light"], args].concat());
+        assert!(output.status.success());
+        assert_says(&text(&output.stderr), &["bright.exr", "65504"]);
+    }
+}
+
+/// Energy goes in, and comes out, of tables and harmonics, too; black is missed by nothing.
+#[test]
+fn energy_is_told_of_what_is_no_picture() {
+    let bench = Bench::new();
+    save_sky(&bench, "sky.exr", 64, |_, j| [0.5, 0.25, j as f32 / 64.0]);
+    save_sky(&bench, "black.exr", 64, |_, _| [0.0; 3]);
+    for args in [&["table", "sky.exr", "t.csv"][..], &["harmonics", "sky.exr", "h.json"]] {
+        let json: Value = serde_json::from_str(&bench.succeed(&[&["light"], args, &["--json"]].concat())).unwrap();
+        for (channel, expected) in [0.5, 0.25, 15.5 / 64.0].into_iter().enumerate() {
+            let [before, after] = ["energy_in", "energy_out"].map(|key| json[key][channel].as_f64().unwrap());
+            assert!((before - expected).abs() < 0.01 && (after - before).abs() < 0.005, "{json}");
+        }
+    }
+    let json = bench.succeed(&["light", "harmonics", "black.exr", "black.json", "--json"]);
+    let json: Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(json["irradiance"]["truncation_rms"].as_f64(), Some(0.0), "{json}");
 }
 
 /// Each frame of a sequence loses its own suns.

@@ -110,7 +110,7 @@ impl Verification<'_> {
             tell_reasons(&mut frames, video, videos)?;
         }
         let sheet = self.sheet.map(|_| sheet::of(frames.iter().filter_map(Frame::thumbnail)));
-        Ok(Verified { frames: frames.len(), faults: judge::faults(&frames, self.size), sheet })
+        Ok(Verified { frames: wanted.len(), faults: judge::faults(&frames, self.size), sheet })
     }
 
     /// Returns the frames that there should be, in order.
@@ -177,7 +177,7 @@ fn series(pattern: &Name) -> Result<ViewFiles> {
 }
 
 /// Puts what the decoder of a video says of frames into their places, when it has said all: of those that it left out, and of those that
-/// it handed out and complained of later. A frame after all that were announced is a further one.
+/// it handed out and complained of later. Frames after all that were announced count as a further one.
 fn tell_reasons(frames: &mut Vec<Frame>, video: &Path, videos: &Videos) -> Result<()> {
     videos.end()?;
     let faults = videos.faults(video)?;
@@ -189,7 +189,7 @@ fn tell_reasons(frames: &mut Vec<Frame>, video: &Path, videos: &Videos) -> Resul
     }
     let after = videos.count(video)?.filter(|after| frames.last().is_some_and(|last| last.number < *after));
     let further = faults.into_iter().filter(|(range, _)| Some(range.start) == after);
-    frames.extend(further.map(|(range, reason)| Frame { number: range.start, found: Found::Damage(reason) }));
+    frames.extend(further.take(1).map(|(range, reason)| Frame { number: range.start, found: Found::Damage(reason) }));
     Ok(())
 }
 

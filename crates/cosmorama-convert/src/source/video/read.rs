@@ -199,8 +199,7 @@ impl Videos {
         state.close();
         let ranged = |(first, (count, reason)): (&u64, &(u64, String))| (*first..first + count, reason.clone());
         let announced = source.count;
-        let words = || format!("it comes after the {announced} frames that the video announces, and is left out");
-        let further = state.has_more.then(|| (announced..announced + 1, words()));
+        let further = state.has_more.then(|| (announced..announced + 1, more_than(announced)));
         Ok(state.faults.iter().map(ranged).chain(further).collect())
     }
 
@@ -396,11 +395,7 @@ impl Source {
         let mut state = self.state();
         let path = self.name.display();
         if state.has_more {
-            return Some(format!(
-                "{path}: there are more frames than the {} that it announces; they are left out, so write it again by a program that \
-                 counts them",
-                self.count
-            ));
+            return Some(format!("{path}: {}", more_than(self.count)));
         }
         state.close();
         let (first, (_, reason)) = state.faults.first_key_value()?;
@@ -415,6 +410,13 @@ impl Source {
             if count == 1 { "frame is" } else { "frames are" }
         ))
     }
+}
+
+/// Returns the complaint about frames that were not announced.
+fn more_than(announced: u64) -> String {
+    format!(
+        "there are more frames than the {announced} that it announces; they are left out, so write it again by a program that counts them"
+    )
 }
 
 impl Decoder {

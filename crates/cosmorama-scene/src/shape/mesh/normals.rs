@@ -5,7 +5,7 @@ use super::build::{Face, Normals, Welded};
 /// Returns the unit normals at the corners of all triangles: those of the file, or means of the planes that meet there.
 ///
 /// A corner's mean is over the triangles around the point whose planes are within the crease's angle of its own, each by its
-/// angle there.
+/// angle there. Where more than [`MOST_AROUND`] meet, corners keep their planes.
 pub(super) fn made(faces: &[Face], welded: &Welded, how: Normals) -> Vec<[DVec3; 3]> {
     let given = |face: &Face| {
         let normals = face.normals.filter(|_| how.kept)?.map(|normal| normal.try_normalize());
@@ -20,8 +20,11 @@ pub(super) fn made(faces: &[Face], welded: &Welded, how: Normals) -> Vec<[DVec3;
     let around = Around::new(welded);
     let least = how.crease.radians().cos();
     let smooth = |face: usize, corner: usize| {
-        let point = welded.corners[face][corner];
-        let near = around.faces(point).iter().map(|index| (*index as usize / 3, *index as usize % 3));
+        let around = around.faces(welded.corners[face][corner]);
+        if around.len() > MOST_AROUND {
+            return planes[face];
+        }
+        let near = around.iter().map(|index| (*index as usize / 3, *index as usize % 3));
         let near = near.filter(|(other, _)| *other == face || planes[*other].dot(planes[face]) >= least);
         let sum: DVec3 = near.map(|(other, corner)| planes[other] * angle(&faces[other].corners, corner)).sum();
         sum.try_normalize().unwrap_or(planes[face])
@@ -31,6 +34,9 @@ pub(super) fn made(faces: &[Face], welded: &Welded, how: Normals) -> Vec<[DVec3;
     };
     given.into_iter().enumerate().map(normals).collect()
 }
+
+/// Triangles around a point at most of which means are taken: each corner looks at all of them, so that time goes with their square.
+const MOST_AROUND: usize = 1024;
 
 /// Returns the angle of a triangle at a corner.
 pub(super) fn angle(corners: &[DVec3; 3], at: usize) -> f64 {
@@ -70,6 +76,23 @@ mod tests {
     use cosmorama::sphere::Angle;
 
     use super::*;
+
+    /// A file of strangers may have all of its triangles at one point, which would take hours.
+    #[test]
+    fn points_of_many_triangles_take_no_squared_time() {
+        let at = |k: usize| DVec3::new((k as f64 * 1e-4).cos(), (k as f64 * 1e-4).sin(), 0.1);
+        let face = |k| {
+            let corners = [DVec3::ZERO, at(k), at(k + 1)];
+            Face { corners, normals: None, uvs: None, tangents: None, part: 0 }
+        };
+        let faces: Vec<Face> = (0..60_000).map(face).collect();
+        let how = Normals { kept: true, crease: Angle::from_degrees(60.0) };
+        let made = made(&faces, &Welded::new(&faces), how);
+        let plane = |face: &Face| (face.corners[1]).cross(face.corners[2]).normalize();
+        assert!(faces.iter().zip(&made).all(|(face, made)| (made[0] - plane(face)).length() < 1e-12));
+        // Elsewhere they are smooth, as ever.
+        assert!((made[5][2] - made[6][1]).length() < 1e-12);
+    }
 
     #[test]
     fn normals_are_smooth_up_to_the_crease() {
