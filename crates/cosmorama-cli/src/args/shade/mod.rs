@@ -31,7 +31,7 @@ pub(super) const EXAMPLES: [&str; 7] = [
     "cosmorama shade sky.hdr row.exr --object spheres:7 --size 1400x300",
     "cosmorama shade sky.hdr matt.png --material matte --background transparent",
     "cosmorama shade none chrome.png --material chrome --background black",
-    "cosmorama shade sky.hdr dome.png --camera fulldome:tilt=20 --eye 0,-1,3 --target 0,-1,0",
+    "cosmorama shade sky.hdr dome.png --camera fulldome:tilt=20 --eye 0,0,3",
 ];
 
 /// Put mirrors and matt things under a world.
