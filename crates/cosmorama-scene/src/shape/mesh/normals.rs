@@ -77,7 +77,7 @@ mod tests {
 
     use super::*;
 
-    /// A file of strangers may have all of its triangles at one point, which would take hours.
+    // A file of strangers may have all of its triangles at one point, which would take hours.
     #[test]
     fn points_of_many_triangles_take_no_squared_time() {
         let at = |k: usize| DVec3::new((k as f64 * 1e-4).cos(), (k as f64 * 1e-4).sin(), 0.1);
