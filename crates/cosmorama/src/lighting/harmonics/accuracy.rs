@@ -52,7 +52,7 @@ impl HarmonicAccuracy {
         let truth: Vec<[f64; 3]> = truth.into_iter().map(|light| lit(light.over(unseen))).collect();
         Self {
             radiance: SeriesAccuracy::of(ratio(missed, all), &radiance),
-            // Averages of nothing but black differ from it by their rounding.
+            // Averages of black are rounding residues. No share of them means anything.
             irradiance: SeriesAccuracy::of(if all > 0.0 { difference(&irradiance, &truth) } else { 0.0 }, &irradiance),
         }
     }
