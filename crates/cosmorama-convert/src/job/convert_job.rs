@@ -177,8 +177,9 @@ impl ConvertJob {
         content.fit_eyes(&mut input, &target, warnings);
         let mut filter = if content.has_files() { filter(geometry, warnings) } else { FilterSettings::DEFAULT };
         if settings.light.is_some() {
-            // The mirror level of a chain must keep the light of suns.
-            filter = FilterSettings { kernel: Kernel::LIGHT, anti_ringing: false, ..filter };
+            // The mirror level of a chain must keep the light of suns, and its faces must meet.
+            let round = target.views.iter().all(|target| target.view.is_flat());
+            filter = FilterSettings { kernel: Kernel { round, ..Kernel::LIGHT }, anti_ringing: false, ..filter };
         }
         // What nothing of the input covers shows the backdrop.
         let in_front = Missing::Fill(Rgba::TRANSPARENT);

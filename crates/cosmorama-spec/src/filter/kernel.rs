@@ -53,8 +53,8 @@ impl FromStr for KernelName {
 impl fmt::Display for KernelName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { kernel, anti_ringing } = *self;
-        let Kernel { scale, floor, entries, .. } = kernel;
-        let scaled = |other: Kernel| Kernel { scale, floor, entries, ..other };
+        let Kernel { scale, floor, entries, round, .. } = kernel;
+        let scaled = |other: Kernel| Kernel { scale, floor, entries, round, ..other };
         let of_name = |name: &&str| (*name == LIGHT) != anti_ringing && named(name).map(scaled) == Some(kernel);
         let name = Self::NAMES.iter().map(|(name, _)| *name).find(of_name).unwrap_or(GAUSSIAN);
         let usual = named(name).unwrap_or(kernel);

@@ -81,6 +81,19 @@ impl Footprint {
         Self::from_covariance(self.direction, self.covariance() + covariance)
     }
 
+    /// Returns the circle of the same area, turned as the footprint is: its axes are as long as each other, and perpendicular.
+    /// A footprint without area stays as it is.
+    #[must_use]
+    pub fn rounded(&self) -> Self {
+        let DirectionJacobian { dx, dy } = self.jacobian;
+        let normal = dx.cross(dy);
+        let area = normal.length();
+        // The rotation of the polar decomposition: `dy` turned back by a right angle lies along `dx`, but for the shear.
+        let Some(along) = (dx * area + dy.cross(normal)).try_normalize() else { return *self };
+        let jacobian = DirectionJacobian { dx: along * area.sqrt(), dy: normal.cross(along) / area.sqrt() };
+        Self { jacobian, ..*self }
+    }
+
     /// Returns the direction at an offset from the centre, in pixels. Lengths on the tangent plane become lengths along
     /// great circles. `None` beyond half a turn.
     pub fn direction_at(&self, x: f64, y: f64) -> Option<Direction> {
@@ -194,6 +207,23 @@ mod tests {
         let point = Footprint::point(Direction::UP);
         assert_eq!(point.covariance(), Covariance::ZERO);
         assert_eq!(point.widened_by(Covariance::ZERO), point);
+    }
+
+    /// Checks that circles have the area and the side of their footprints, and that circles stay what they are.
+    #[test]
+    fn rounded_footprints_are_circles_of_their_area() {
+        for footprint in footprints() {
+            let DirectionJacobian { dx, dy } = footprint.jacobian;
+            let circle = footprint.rounded();
+            let DirectionJacobian { dx: across, dy: down } = circle.jacobian;
+            let area = dx.cross(dy);
+            assert!(across.cross(down).distance(area) < 1e-12 && across.dot(down).abs() < 1e-12, "{footprint:?}");
+            assert!((across.length() - down.length()).abs() < 1e-12 && dx.dot(across) > 0.0 && dy.dot(down) > 0.0);
+            let again = circle.rounded().jacobian;
+            assert!(again.dx.distance(across) < 1e-12 && again.dy.distance(down) < 1e-12, "{footprint:?}");
+        }
+        let point = Footprint::point(Direction::UP);
+        assert_eq!(point.rounded(), point);
     }
 
     #[test]

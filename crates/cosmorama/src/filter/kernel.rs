@@ -133,6 +133,11 @@ pub struct Kernel {
     pub floor: f64,
     /// Whether the weights are corrected so that their centroid is exactly the pixel's centre.
     pub centred: bool,
+    /// Whether a pixel counts as a circle of its solid angle, whatever its shape ([`Footprint::rounded`]). Pixels of two faces
+    /// of a cube lean to different sides at the edge between them, most of all beside a corner. Circles do not.
+    ///
+    /// [`Footprint::rounded`]: crate::camera::Footprint::rounded
+    pub round: bool,
     /// Number of entries of the table over r² that holds the weights, from 1 to [`Kernel::MOST_ENTRIES`]; between two
     /// entries they are interpolated. Where that is faster, cubics are computed instead, and wide Gaussians whose table has
     /// the usual length.
@@ -175,6 +180,7 @@ impl Kernel {
         scale: 0.8,
         floor: 1.12,
         centred: true,
+        round: false,
         entries: Self::ENTRIES,
     };
 
@@ -192,6 +198,7 @@ impl Kernel {
             scale: 1.0,
             floor: 1.0,
             centred: false,
+            round: false,
             entries: Self::ENTRIES,
         }
     }

@@ -112,11 +112,14 @@ fn square_of_pixel<'a>(
     (i, j): (usize, usize),
 ) -> KernelSquare<'a, impl Fn(f64, f64) -> Option<Direction>> {
     let centre = PixelPoint::centre(i, j);
+    let screen = target.footprint(centre);
+    let circle = screen.filter(|_| filter.kernel.round).map(|footprint| footprint.rounded());
     let look_at = move |x: f64, y: f64| {
         let at = PixelPoint::new(centre.x + x, centre.y + y);
-        target.stop_passes(at).then(|| target.direction(at))?
+        let seen = || circle.map_or_else(|| target.direction(at), |circle| circle.direction_at(x, y));
+        target.stop_passes(at).then(seen)?
     };
-    KernelSquare::new(world, filter, target.footprint(centre).as_ref(), look_at)
+    KernelSquare::new(world, filter, screen.as_ref(), look_at)
 }
 
 /// Square of the sub-samples that a kernel reaches around a pixel.

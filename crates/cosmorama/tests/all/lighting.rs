@@ -132,15 +132,18 @@ fn one_texel_gives_the_lobe() {
     };
     let before = energy(light.texels(), &world);
     let each = lobes.into_iter().zip([0.05, 0.1, 0.25, 0.5, 1.0]);
-    let by_tree = each.clone().skip(1).map(|case| (&tree as &dyn LobeAverages, case));
-    for (averages, (lobe, alpha)) in each.map(|case| (&prepared as &dyn LobeAverages, case)).chain(by_tree) {
+    // Blocks are summed in single precision: a step of the last digits of what is all but grey is no maximum.
+    let by_tree = each.clone().skip(1).map(|case| (&tree as &dyn LobeAverages, case, 1e-5));
+    for (averages, (lobe, alpha), rounding) in
+        each.map(|case| (&prepared as &dyn LobeAverages, case, 0.0)).chain(by_tree)
+    {
         let image = averages.picture(&target(width), &lobe, Rgba::BLACK);
         let after = energy(image.pixels(), &world) / before;
         assert!((after - 1.0).abs() < 1e-3, "{alpha}: energy {after}");
         let peak = f64::from(averages.average(sun, &lobe).0[0]);
         let expected = f64::from(SUN - 0.18) * angle * lobe.weight(1.0) / lobe.integral() + 0.18;
         assert!((peak / expected - 1.0).abs() < 0.01, "{alpha}: peak {peak}, not {expected}");
-        assert_eq!(maxima(&image), 1, "{alpha}");
+        assert_eq!(maxima(&image, rounding), 1, "{alpha}");
         assert!(image.pixels().iter().all(|pixel| pixel.0.iter().all(|channel| channel.is_finite())));
         // The sun is as high to the left as to the right.
         let (left, right) = (image.get(at[0] - 9, at[1]).0[0], image.get(at[0] + 9, at[1]).0[0]);
@@ -148,13 +151,13 @@ fn one_texel_gives_the_lobe() {
     }
 }
 
-/// Number of pixels that are brighter than all around them, and than grey.
-fn maxima(image: &Image<Rgba>) -> usize {
+/// Number of pixels that are brighter than all around them, by more than a part of that.
+fn maxima(image: &Image<Rgba>, rounding: f32) -> usize {
     let (width, height) = (image.width(), image.height());
     let light = |i: usize, j: usize| image.get(i % width, j).0[0];
     let is_top = |i: usize, j: usize| {
         let mut around = (0..9).filter(|k| *k != 4).map(|k| (i + width + k % 3 - 1, (j + k / 3).saturating_sub(1)));
-        light(i, j) > 0.2 && around.all(|(column, row)| row >= height || light(i, j) > light(column, row) * 1.000_01)
+        around.all(|(column, row)| row >= height || light(i, j) > light(column, row) * (1.0 + rounding))
     };
     (1..height - 1).flat_map(|j| (0..width).map(move |i| (i, j))).filter(|(i, j)| is_top(*i, *j)).count()
 }

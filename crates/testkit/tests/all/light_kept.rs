@@ -1,10 +1,10 @@
 //! What skies with a sun keep of their light in another form, at as many pixels.
 
-use cosmorama::camera::{CameraModel, CubeFaceCamera, Placement, View};
-use cosmorama::filter::{Ewa, FilterSettings};
+use cosmorama::camera::{CameraModel, CubeFaceCamera, PixelPoint, Placement, View};
+use cosmorama::filter::{Ewa, FilterSettings, Kernel};
 use cosmorama::raster::{Image, Rgba, Transfer};
 use cosmorama::render::{Resampler, picture};
-use cosmorama::sphere::CubeFace;
+use cosmorama::sphere::{CubeFace, Direction};
 use cosmorama::world::World;
 use cosmorama_io::{Limits, read};
 use testkit::{Form, HARD_PLACES, LIGHT, Sky, equirect, equirect_density, shared, sun};
@@ -83,12 +83,15 @@ fn face(face: CubeFace, edge: usize) -> View {
     placement.view(edge, edge).expect("a face")
 }
 
+/// Filter of the mirror level of a chain.
+const MIRROR: FilterSettings = FilterSettings { kernel: Kernel { round: true, ..Kernel::LIGHT }, ..LIGHT };
+
 /// Returns the faces of a cube, made fast, and made pixel by pixel from lists of texels.
 fn faces_both_ways(world: &World, texels: &[Rgba], edge: usize) -> [Vec<Image<Rgba>>; 2] {
-    let singly = Ewa { kernel: LIGHT.kernel, anti_ringing: false }.of_texels(world, texels);
+    let singly = Ewa { kernel: MIRROR.kernel, anti_ringing: false }.of_texels(world, texels);
     let views = CubeFace::ALL.map(|side| face(side, edge));
     [
-        views.iter().map(|target| Resampler { world, target, filter: LIGHT }.render(texels)).collect(),
+        views.iter().map(|target| Resampler { world, target, filter: MIRROR }.render(texels)).collect(),
         views.iter().map(|target| picture(&*singly, target)).collect(),
     ]
 }
@@ -117,4 +120,48 @@ fn mirror_levels_are_what_lists_of_texels_make() {
         let gain = sum(&fast) / sum(&slow) - 1.0;
         assert!(gain.abs() < 1e-4, "a sun in texel {sun}: energy differs by {gain}");
     }
+}
+
+/// Largest steps of a sun's light from pixel to pixel, inside faces and across their edges, wherever about a corner it stands.
+fn steps_about_a_corner(world: &World, filter: FilterSettings) -> [f32; 2] {
+    let sides = [CubeFace::Front, CubeFace::Right, CubeFace::Up];
+    let views = sides.map(|side| face(side, 64));
+    let mut steps = [0f32; 2];
+    let (corner, row) = ((512 / 8) * 5, 256.0 * (0.5 - (0.5f64.sqrt()).atan() / std::f64::consts::PI));
+    for sun in (0..48).map(|k| (row as usize - 3 + k / 8) * 512 + corner - 4 + k % 8) {
+        let light = texels(world, |at| if at == sun { 250_000.0 } else { 0.18 });
+        let faces = views.each_ref().map(|target| Resampler { world, target, filter }.render(&light));
+        let pixel = |at: Direction| {
+            let seen = |(view, face): (&View, &Image<Rgba>)| {
+                let pixel = view.pixel(at).filter(|pixel| view.grid.contains(*pixel))?;
+                Some(face.get(pixel.x as usize, pixel.y as usize).0[0])
+            };
+            views.iter().zip(&faces).find_map(seen)
+        };
+        for (view, face) in views.iter().zip(&faces) {
+            for (i, j) in (0..64).flat_map(|j| (0..64).map(move |i| (i, j))) {
+                for (right, down) in [(1, 0), (0, 1), (-1, 0), (0, -1)] {
+                    let (x, y) = (i + right, j + down);
+                    let is_across = !(0..64).contains(&x) || !(0..64).contains(&y);
+                    let beside =
+                        view.direction(PixelPoint::new(f64::from(x) + 0.5, f64::from(y) + 0.5)).and_then(pixel);
+                    let Some(beside) = beside else { continue };
+                    let step = &mut steps[usize::from(is_across)];
+                    *step = step.max((face.get(i as usize, j as usize).0[0] - beside).abs());
+                }
+            }
+        }
+    }
+    steps
+}
+
+/// Moves a sun about the corner of three faces. Pixels taken as circles step no more across edges than inside; taken as they lie,
+/// they do, since pixels of two faces lean to different sides.
+#[test]
+fn faces_of_mirror_levels_meet_about_a_corner() {
+    let world = World::new([("panorama".to_owned(), equirect(512))]).expect("one view");
+    let [inside, across] = steps_about_a_corner(&world, MIRROR);
+    assert!(across > 0.0 && across <= inside, "{across} across edges, {inside} inside");
+    let [inside, across] = steps_about_a_corner(&world, LIGHT);
+    assert!(across > 1.05 * inside, "pixels as they lie: {across} across edges, {inside} inside");
 }

@@ -9,7 +9,7 @@ use super::lanes::Falloff;
 use super::prefetch::prefetch;
 use super::rows::{Conic, Lattice, Row, Rows};
 use crate::camera::{FieldStop, Footprint};
-use crate::filter::gather::{LINEAR_PART, reach, with_width};
+use crate::filter::gather::{LINEAR_PART, reach, shape};
 use crate::filter::{Ellipse, Kernel};
 use crate::raster::Rgba;
 use crate::sphere::Direction;
@@ -164,7 +164,7 @@ impl Shape {
     /// Returns the kernel of a footprint, among texels of this pitch.
     #[inline(always)]
     fn of(footprint: &Footprint, kernel: &Kernel, texel_pitch: f64) -> Self {
-        let footprint = with_width(*footprint);
+        let footprint = shape(kernel, footprint);
         let (dx, dy) = (footprint.jacobian.dx, footprint.jacobian.dy);
         let normal = dx.cross(dy);
         let unit = (normal.length_squared() * kernel.scale).recip();

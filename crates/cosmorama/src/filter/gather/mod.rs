@@ -103,7 +103,7 @@ impl<'a> Gather<'a> {
     /// Finds the taps of a footprint. Their weights add to one. There is none where no view is near.
     pub(crate) fn taps(&mut self, footprint: &Footprint, taps: &mut Taps) {
         taps.clear();
-        let footprint = &with_width(*footprint);
+        let footprint = &shape(self.table.kernel(), footprint);
         let centred = self.table.kernel().centred;
         let ends_under = self.collect(footprint, RimRegion::Inside);
         let at_rim = centred && (ends_under || self.ends_beside());
@@ -362,7 +362,7 @@ pub(crate) struct EllipseOfTexels {
 /// Returns the ellipse of a footprint's kernel among the texels of a source. `None` if the kernel is not an ellipse
 /// there, or not wholly inside the part that no other view shares.
 pub(crate) fn ellipse_of_texels(kernel: &Kernel, source: &Source, footprint: &Footprint) -> Option<EllipseOfTexels> {
-    let footprint = &with_width(*footprint);
+    let footprint = &shape(kernel, footprint);
     let radius = reach(kernel, footprint, source.texel_pitch_at(footprint.direction), kernel.floor);
     if source.view.stop != FieldStop::NONE
         || !is_linear(source, footprint, radius, source.view.margin(footprint.direction))
@@ -384,7 +384,7 @@ pub(crate) fn ellipse_of_texels(kernel: &Kernel, source: &Source, footprint: &Fo
 /// Estimates how many texels of a source a kernel reads for a footprint, as measured across the kernel. `around` widens
 /// the kernel on all sides, in radians.
 pub(crate) fn texels_of(kernel: &Kernel, source: &Source, footprint: &Footprint, around: f64) -> f64 {
-    let footprint = &with_width(*footprint);
+    let footprint = &shape(kernel, footprint);
     let radius = reach(kernel, footprint, source.texel_pitch_at(footprint.direction), kernel.floor);
     let margin = source.view.margin(footprint.direction);
     if margin + radius + around <= 0.0 || !source.reaches(footprint.direction, radius + around) {
@@ -425,8 +425,14 @@ const NO_WIDTH: f64 = 1e-6;
 /// tell offsets across the pixel apart.
 const SOME_WIDTH: f64 = 0.01;
 
+/// Returns a footprint as a kernel takes it.
+pub(crate) fn shape(kernel: &Kernel, footprint: &Footprint) -> Footprint {
+    let footprint = with_width(*footprint);
+    if kernel.round { footprint.rounded() } else { footprint }
+}
+
 /// Returns a footprint unchanged if it has any width; else a narrow one.
-pub(crate) fn with_width(footprint: Footprint) -> Footprint {
+fn with_width(footprint: Footprint) -> Footprint {
     let Footprint { direction, jacobian: DirectionJacobian { dx, dy } } = footprint;
     let across = |side: DVec3| direction.vector().cross(side) * SOME_WIDTH;
     let (x, y) = (dx.length(), dy.length());

@@ -2,6 +2,7 @@ use glam::{DMat2, DVec2};
 
 use super::tile::{HALF, SIDE};
 use crate::camera::{Footprint, PixelPoint, View};
+use crate::filter::Kernel;
 use crate::filter::gather::cap::Cap;
 use crate::world::Source;
 
@@ -10,6 +11,8 @@ use crate::world::Source;
 #[derive(Clone, Debug)]
 pub(crate) struct Lattice<'a> {
     target: &'a View,
+    /// Whether pixels are taken as circles, as [`Kernel::round`](crate::filter::Kernel::round) says.
+    round: bool,
     slots: Vec<Slot>,
 }
 
@@ -17,6 +20,9 @@ pub(crate) struct Lattice<'a> {
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Point {
     pub(crate) place: DVec2,
+    /// Change of the place from pixel to pixel.
+    pub(crate) slope: DMat2,
+    /// Axes of the pixel's footprint. They are the slope, unless pixels are taken as circles.
     pub(crate) jacobian: DMat2,
 }
 
@@ -36,13 +42,28 @@ const ACROSS: usize = 32;
 /// Number of points down that are remembered: more than a patch has.
 const DOWN: usize = 4;
 
+impl Point {
+    /// Measures a footprint in a view; with `round`, its pixel counts as a circle.
+    pub(super) fn of(source: &Source, screen: &Footprint, round: bool) -> Option<Self> {
+        let (at, slope) = source.view.texel_footprint(screen)?;
+        let circle = round.then(|| source.view.texel_footprint(&screen.rounded()));
+        let jacobian = circle.flatten().map_or(slope, |(_, jacobian)| jacobian);
+        Some(Self { place: DVec2::new(at.x, at.y), slope, jacobian })
+    }
+}
+
 impl<'a> Lattice<'a> {
-    pub(crate) fn new(target: &'a View) -> Self {
-        Self { target, slots: vec![Slot::default(); ACROSS * DOWN] }
+    pub(crate) fn new(target: &'a View, kernel: &Kernel) -> Self {
+        Self { target, round: kernel.round, slots: vec![Slot::default(); ACROSS * DOWN] }
     }
 
     pub(crate) fn target(&self) -> &'a View {
         self.target
+    }
+
+    /// Returns whether pixels are taken as circles.
+    pub(super) fn is_round(&self) -> bool {
+        self.round
     }
 
     /// Returns the footprint of a pixel whose column and row are multiples of half a patch.
@@ -56,13 +77,13 @@ impl<'a> Lattice<'a> {
         pixel: [usize; 2],
         (view, source): (usize, &Source),
     ) -> Option<(Footprint, Option<Point>)> {
+        let round = self.round;
         let slot = self.slot(pixel);
         let screen = slot.screen?;
         let point = match slot.seen {
             Some((known, point)) if known == view => point,
             _ => {
-                let seen = source.view.texel_footprint(&screen);
-                let point = seen.map(|(at, jacobian)| Point { place: DVec2::new(at.x, at.y), jacobian });
+                let point = Point::of(source, &screen, round);
                 slot.seen = Some((view, point));
                 point
             }
@@ -98,7 +119,7 @@ mod tests {
     fn points_are_those_of_the_pixels_asked_for() {
         let (target, sky) = (panorama(800, 400), panorama(640, 320));
         let world = World::new(["a", "b"].map(|name| (name.to_owned(), sky.clone()))).expect("two views");
-        let mut lattice = Lattice::new(&target);
+        let mut lattice = Lattice::new(&target, &Kernel::ADAPTIVE);
         // Pixels that share one slot, each of them twice, and in two views.
         for (k, pixel) in [[4, 8], [4 + 128, 8], [4, 8], [4, 24], [4, 24], [8, 24], [4, 8]].into_iter().enumerate() {
             let exact = target.footprint(PixelPoint::centre(pixel[0], pixel[1]));

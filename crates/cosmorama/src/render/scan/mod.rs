@@ -60,7 +60,7 @@ impl<'a> Scan<'a> {
         let Resampler { world, target, filter } = resampler;
         let weigher = filter.kind.is_elliptical().then(|| Weigher::new(&filter.kernel, level)).flatten();
         let pixels = PixelTaps::new(world, target, filter, table);
-        Self { resampler, pixels, weigher, lattice: Lattice::new(target), wanted: None }
+        Self { resampler, pixels, weigher, lattice: Lattice::new(target, &filter.kernel), wanted: None }
     }
 
     /// Restricts the scan to these patches.

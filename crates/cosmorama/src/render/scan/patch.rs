@@ -95,7 +95,7 @@ impl<'a> Patch<'a> {
         let geometry = match Coons::through(&points, origin) {
             Some(coons) => Geometry::Interpolated(coons),
             None if is_held(&points[1][1], gather.kernel()) => {
-                Geometry::Exact(Exact::of((lattice.target(), [i, j]), source, (origin, points[1][1].jacobian))?.into())
+                Geometry::Exact(Exact::of((&*lattice, [i, j]), source, (origin, points[1][1].jacobian))?.into())
             }
             None => return None,
         };
@@ -130,7 +130,12 @@ impl Exact {
     /// middle.
     ///
     /// `None` where the view does not show all of the patch, beside a steep rim, or where derivatives change much.
-    fn of((target, [i, j]): (&View, [usize; 2]), source: &Source, (origin, middle): (DVec2, DMat2)) -> Option<Self> {
+    fn of(
+        (lattice, [i, j]): (&Lattice, [usize; 2]),
+        source: &Source,
+        (origin, middle): (DVec2, DMat2),
+    ) -> Option<Self> {
+        let (target, round) = (lattice.target(), lattice.is_round());
         let bound = CHANGE * largest(middle);
         let mut exact = Self { place: [[[0.0; SIDE]; SIDE]; 2], jacobian: [[[0.0; SIDE]; SIDE]; 4] };
         for row in 0..SIDE {
@@ -139,7 +144,7 @@ impl Exact {
                 if target.is_steep_at(&footprint) {
                     return None;
                 }
-                let (at, jacobian) = source.view.texel_footprint(&footprint)?;
+                let Point { place: at, jacobian, .. } = Point::of(source, &footprint, round)?;
                 if !(jacobian.is_finite() && at.x.is_finite() && at.y.is_finite() && largest(jacobian - middle) < bound)
                 {
                     return None;

@@ -99,7 +99,7 @@ impl Coons {
     pub(crate) fn through(points: &Grid<Point>, origin: DVec2) -> Option<Self> {
         let [[a, _, b], _, [c, _, d]] = *points;
         let edge = |from: Point, to: Point, along: fn(&DMat2) -> DVec2| {
-            let slope = |point: Point| along(&point.jacobian) * SIDE as f64;
+            let slope = |point: Point| along(&point.slope) * SIDE as f64;
             Bulge::new(from.place, to.place, slope(from), slope(to))
         };
         let (top, bottom) = (edge(a, b, |m| m.x_axis), edge(c, d, |m| m.x_axis));
@@ -159,7 +159,8 @@ mod tests {
     fn point(place: impl Fn(f64, f64) -> DVec2, (s, t): (f64, f64)) -> Point {
         let step = 1e-5;
         let slope = |ds: f64, dt: f64| (place(s + ds, t + dt) - place(s - ds, t - dt)) / (2.0 * step * SIDE as f64);
-        Point { place: place(s, t), jacobian: DMat2::from_cols(slope(step, 0.0), slope(0.0, step)) }
+        let slope = DMat2::from_cols(slope(step, 0.0), slope(0.0, step));
+        Point { place: place(s, t), slope, jacobian: slope }
     }
 
     fn grid(place: impl Fn(f64, f64) -> DVec2) -> Grid<Point> {

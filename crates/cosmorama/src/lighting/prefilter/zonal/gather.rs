@@ -28,16 +28,18 @@ pub(super) struct Taker {
     pub(super) grain: f64,
     /// Mean radiance of the world.
     pub(super) mean: f64,
+    /// Light of each texel that is not taken ([`Totals::least`](super::points::Totals::least)).
+    pub(super) least: Channels,
 }
 
 /// Gives a grid the light of all texels but bright points.
 pub(super) fn gather(lit: &LitTexels, bright: &BrightPoints, taker: Taker) -> Vec<Vec<Channels>> {
-    let Taker { size, grain, mean } = taker;
+    let Taker { size, grain, mean, least } = taker;
     let most = grain.min(PI / size.rows as f64 / BLOCKS);
     let mut all = Spread::new(size);
     for (view, taken) in lit.views().zip(&bright.taken) {
         let side = (most / view.source.texel_pitch) as usize;
-        let piece = Piece { view, taken, side: side.max(1), mean: mean as f32 };
+        let piece = Piece { view, taken, side: side.max(1), mean: mean as f32, least };
         let columns = piece.columns(size);
         let (height, pieces) = (view.size().1, if columns.is_some() { RING_PIECES } else { PIECES });
         let rows = height.div_ceil(pieces).next_multiple_of(piece.side);
@@ -70,6 +72,7 @@ struct Piece<'a> {
     side: usize,
     /// Mean radiance of the world.
     mean: f32,
+    least: Channels,
 }
 
 /// Light of texels with the sum of their directions, weighted.
@@ -117,7 +120,7 @@ impl Piece<'_> {
         for columns in untaken(self.taken, j * texels.len(), texels.len()) {
             let texels = texels[columns.clone()].iter().zip(&angles[columns.clone()]);
             for ((Rgba(texel), angle), light) in texels.zip(&mut light[columns]) {
-                (0..4).for_each(|channel| light[channel] += texel[channel] * angle);
+                (0..4).for_each(|channel| light[channel] += (texel[channel] - self.least[channel]) * angle);
             }
         }
     }
@@ -154,7 +157,7 @@ impl Piece<'_> {
             self.view.source.view.row_directions(j, columns, |i, direction| {
                 let (Rgba(texel), angle) = (texels[i], angles[i]);
                 let block = &mut blocks[i / self.side];
-                (0..4).for_each(|channel| block.light[channel] += texel[channel] * angle);
+                (0..4).for_each(|channel| block.light[channel] += (texel[channel] - self.least[channel]) * angle);
                 block.middle += direction.vector() * f64::from((brightness(texel) + self.mean) * angle);
             });
         }

@@ -33,7 +33,9 @@ pub(super) struct ZonalLight {
     lobes: Vec<WideLobe>,
     bright: Vec<Point>,
     shown: f64,
-    /// Whether averages may be negative, because some light is.
+    /// Light of every texel that is in neither ([`Totals::least`]).
+    least: Channels,
+    /// Whether sums may be negative, because some light is.
     has_negative: bool,
 }
 
@@ -61,11 +63,11 @@ impl ZonalLight {
         let highest = lobes.iter().map(|lobe| lobe.bands.highest()).max()?;
         let totals = Totals::of(lit);
         let bright = BrightPoints::of(lit, &totals);
-        let Totals { shown, has_negative, mean, .. } = totals;
+        let Totals { shown, least, has_negative, mean, .. } = totals;
         let grain = lobes.iter().map(|lobe| lobe.bands.grain()).fold(f64::INFINITY, f64::min);
         let size = GridSize::of(highest);
-        let spectrum = Spectrum::of(size, &gather(lit, &bright, Taker { size, grain, mean }), highest);
-        Some(Self { spectrum, lobes, bright: bright.points, shown, has_negative })
+        let spectrum = Spectrum::of(size, &gather(lit, &bright, Taker { size, grain, mean, least }), highest);
+        Some(Self { spectrum, lobes, bright: bright.points, shown, least, has_negative })
     }
 
     /// Returns about how many bytes grids and waves take for some lobes.
@@ -111,7 +113,9 @@ impl ZonalLight {
         let [red, green, blue, shown] = sums;
         // Where nothing shines, bands that are left out leave traces of both signs.
         let light = [red, green, blue].map(|sum| if self.has_negative { sum } else { sum.max(0.0) });
-        [light[0], light[1], light[2], shown.max(0.0)]
+        let shown = shown.max(0.0);
+        let whole = |channel: usize| light[channel] + f64::from(self.least[channel]) * shown;
+        [whole(0), whole(1), whole(2), shown]
     }
 }
 

@@ -27,7 +27,10 @@ pub(super) struct Point {
 pub(super) struct Totals {
     /// Solid angle in which something is shown.
     pub(super) shown: f64,
-    /// Whether any light is negative.
+    /// Light that all texels have at least, by channel, where all are opaque; none where some are not. Only what is above it is
+    /// summed, so that an even world has nothing to sum, and stays even to the last digit. Its opacity is zero.
+    pub(super) least: Channels,
+    /// Whether any light above that is negative.
     pub(super) has_negative: bool,
     /// Mean radiance, all colours added.
     pub(super) mean: f64,
@@ -51,9 +54,12 @@ impl Totals {
         let all = || rows.iter().flatten();
         let shown: f64 = all().map(|row| f64::from(row.sum[3])).sum();
         let light: f64 = all().map(RowTotals::light).sum();
+        let [red, green, blue, alpha] = all().map(|row| row.least).reduce(lesser).unwrap_or_default();
+        let least = if alpha == 1.0 { [red, green, blue, 0.0] } else { [0.0; 4] };
         Self {
             shown,
-            has_negative: all().any(|row| row.least[..3].iter().any(|least| *least < 0.0)),
+            least,
+            has_negative: alpha != 1.0 && [red, green, blue].iter().any(|least| *least < 0.0),
             mean: if shown > 0.0 { light / shown } else { 0.0 },
             brightest: rows.iter().map(|rows| rows.iter().map(|row| brightness(row.most)).collect()).collect(),
         }
@@ -76,7 +82,7 @@ impl RowTotals {
 
     fn of(view: LitView, j: usize) -> Self {
         let (texels, angles) = view.row(j);
-        let mut totals = Self { sum: [0.0; 4], least: [0.0; 4], most: [0.0; 4] };
+        let mut totals = Self { sum: [0.0; 4], least: [f32::INFINITY; 4], most: [0.0; 4] };
         let Self { sum, least, most } = &mut totals;
         for (Rgba(texel), angle) in texels.iter().zip(angles) {
             for channel in 0..4 {
@@ -154,7 +160,7 @@ fn candidates(lit: &LitTexels, totals: &Totals) -> Vec<Candidate> {
             view.source.view.row_directions(j, i..i + 1, |_, at| direction = Some(at));
             let direction = direction?;
             let cell = direction.vector().to_array().map(|part| (part * CELLS).floor() as i32);
-            let light = texels[i].0.map(|channel| channel * angles[i]);
+            let light = std::array::from_fn(|channel| (texels[i].0[channel] - totals.least[channel]) * angles[i]);
             Some(Candidate { cell, view: index, texel: j * width + i, direction, light })
         });
         found.collect::<Vec<_>>()
@@ -165,6 +171,11 @@ fn candidates(lit: &LitTexels, totals: &Totals) -> Vec<Candidate> {
     });
     let rows: Vec<_> = rows.collect();
     rows.into_par_iter().flat_map_iter(of_row).collect()
+}
+
+/// Returns the lesser of two numbers, by channel.
+fn lesser(a: Channels, b: Channels) -> Channels {
+    std::array::from_fn(|channel| a[channel].min(b[channel]))
 }
 
 /// Returns all colours added. Negative light is dark.
