@@ -5,6 +5,7 @@ mod hostile;
 mod meshes;
 mod models;
 mod occlusion;
+mod rough;
 mod spheres;
 mod textures;
 mod variants;
