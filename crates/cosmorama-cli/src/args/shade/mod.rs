@@ -57,7 +57,7 @@ pub(crate) struct ShadeArgs {
     /// Make a model's normals smooth over edges up to this angle; 0: flat [default: the file's own, or 40]
     #[arg(long, value_name = "DEGREES", value_parser = crease, allow_negative_numbers = true, hide_short_help = true, help_heading = "Things")]
     pub(crate) crease: Option<Angle>,
-    /// Things, materials, other worlds and the camera in a file (docs/scenes.md)
+    /// Things, materials, lights, other worlds and the camera in a file (docs/scenes.md)
     #[arg(
         long,
         value_name = "FILE.toml",
@@ -161,8 +161,14 @@ pub(crate) struct ShadeArgs {
     pub(crate) from: Option<Spec>,
     /// ewa-pyramid (default), ewa, bilinear, point, reference
     ///
-    /// How what mirrors reflect is averaged.
-    #[arg(long, value_name = "FILTER", default_value = "ewa-pyramid", value_parser = listed::filter(), hide_possible_values = true, hide_default_value = true, help_heading = "World")]
+    /// How what mirrors reflect is averaged:
+    ///   ewa-pyramid  texels under an ellipse, of smaller copies if it is large
+    ///   ewa          all texels under the ellipse: sharper, for stills
+    ///   bilinear     the four nearest texels: fast, but flickers
+    ///   point        the nearest texel
+    ///   reference    many samples of the pixel, to judge others by
+    /// The other filters of convert go there, too (docs/filters.md).
+    #[arg(long, verbatim_doc_comment, value_name = "FILTER", default_value = "ewa-pyramid", value_parser = listed::filter(), hide_possible_values = true, hide_default_value = true, help_heading = "World")]
     pub(crate) reflect: FilterName,
     /// adaptive (default), mitchell, lanczos3, …
     #[arg(long, value_name = "NAME", default_value = "adaptive", value_parser = listed::kernel(), hide_possible_values = true, hide_default_value = true, hide_short_help = true, help_heading = "World")]

@@ -60,7 +60,7 @@ pub(super) fn run(args: ShadeArgs, console: &mut Console) -> Result<ExitCode> {
     let surroundings = |number: usize| {
         let made = Surroundings::new(skies[number], &maps[number], filter).map_err(wrong)?;
         let is_hidden = args.occlusion == OcclusionName::Ambient;
-        Ok(made.with_chrome(things.chrome.clone()).with_proxy(worlds[number].proxy).with_occlusion(is_hidden))
+        Ok(made.with_proxy(worlds[number].proxy).with_occlusion(is_hidden))
     };
     let mut surroundings: Vec<Surroundings> =
         pool.install(|| (0..worlds.len()).map(surroundings).collect::<Result<_>>())?;
@@ -76,11 +76,8 @@ pub(super) fn run(args: ShadeArgs, console: &mut Console) -> Result<ExitCode> {
     for frame in &frames {
         surroundings.iter_mut().for_each(|world| world.turn_things(frame.turn));
         let made = |k: usize, shot: &Shot| {
-            let made = match &behind {
-                Some(behind) => picture_over(&things.scene, &shot.camera, &surroundings, behind[k].clone()),
-                None => picture(&things.scene, &shot.camera, &surroundings, background),
-            };
-            made.map_err(wrong)
+            let over = kept.as_ref().map_or_else(|| behind(shot, &surroundings), |kept| kept[k].clone());
+            picture_over(&things.scene, &shot.camera, &surroundings, over).map_err(wrong)
         };
         let image = pool.install(|| assembled(&shots, made))?;
         shaded += clock.lap();

@@ -36,10 +36,17 @@ pub(super) struct Asked<'a> {
     pub(super) frames: Option<FrameList>,
 }
 
+impl Asked<'_> {
+    /// Returns whether no world is asked for.
+    pub(super) fn is_none(&self) -> bool {
+        **self.name == *NONE
+    }
+}
+
 impl WorldInput {
     /// Finds the world's files and reads their headers.
     pub(super) fn check(asked: Asked, args: &ShadeArgs, console: &mut Console) -> Result<Self> {
-        if **asked.name == *NONE {
+        if asked.is_none() {
             return without(args);
         }
         match Builtin::named(asked.name)? {

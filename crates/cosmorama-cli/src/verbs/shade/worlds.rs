@@ -1,7 +1,7 @@
 use std::path::PathBuf;
 
-use anyhow::{Result, anyhow};
-use cosmorama_convert::{Name, Radiance};
+use anyhow::{Error, Result, anyhow};
+use cosmorama_convert::{ConvertError, Name, Radiance, Setting};
 use cosmorama_scene::{Located, NamedWorld, Proxy};
 use cosmorama_spec::{Spec, did_you_mean};
 
@@ -44,10 +44,10 @@ pub(super) fn worlds(args: &ShadeArgs, things: &mut Things, console: &mut Consol
 
 fn of_file(world: &NamedWorld, args: &ShadeArgs, console: &mut Console) -> Result<Under> {
     let spec = |spec: &Located| -> Result<Spec> {
-        spec.text.parse().map_err(|error| anyhow!("{}: spec = \"{}\": {error}", spec.place, spec.text))
+        spec.value.parse().map_err(|error| anyhow!("{}: spec = \"{}\": {error}", spec.place, spec.value))
     };
     let from = world.spec.as_ref().map(spec).transpose()?;
-    let name = Name::from(&world.image.text);
+    let name = Name::from(&world.image.value);
     let asked = Asked { name: &name, from, frames: None };
     let placed = |error| anyhow!("{}: {}", world.image.place, message(&error));
     let input = WorldInput::check(asked, args, console).map_err(placed)?;
