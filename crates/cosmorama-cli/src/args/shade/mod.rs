@@ -206,6 +206,14 @@ pub(crate) struct ShadeArgs {
     /// world (default), transparent or a colour
     #[arg(long, value_name = "COLOR", default_value = "world", hide_default_value = true, help_heading = "Picture")]
     pub(crate) background: BackgroundName,
+    /// A world behind the things, in place of the one that they stand under
+    ///
+    /// Named like WORLD; builtin:NAME, too. Both are seen by the same camera.
+    #[arg(long, value_name = "WORLD", value_hint = ValueHint::FilePath, value_parser = file::name(), conflicts_with = "background", hide_short_help = true, help_heading = "Picture")]
+    pub(crate) backdrop: Option<Name>,
+    /// The backdrop's projection [default: found]
+    #[arg(long, value_name = "SPEC", value_parser = listed::spec(), hide_possible_values = true, requires = "backdrop", hide_short_help = true, help_heading = "Picture")]
+    pub(crate) backdrop_from: Option<Spec>,
     /// As many pictures of a whole turn of the things, turn_####.png
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000), hide_short_help = true, help_heading = "Picture")]
     pub(crate) turntable: Option<u64>,

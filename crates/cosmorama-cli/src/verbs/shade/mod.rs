@@ -18,7 +18,7 @@ use anyhow::Result;
 use cosmorama::filter::FilterSettings;
 use cosmorama::raster::{Image, Rgba};
 use cosmorama_convert::{MemoryBudget, check_apart, threads};
-use cosmorama_scene::{Background, LightMaps, SceneError, Sky, Surroundings, backdrop, picture, picture_over};
+use cosmorama_scene::{Background, LightMaps, SceneError, Sky, Surroundings, backdrop, picture_over};
 use cpu_time::ProcessTime;
 use serde_json::json;
 
@@ -68,10 +68,11 @@ pub(super) fn run(args: ShadeArgs, console: &mut Console) -> Result<ExitCode> {
         BackgroundName::World => Background::World,
         BackgroundName::Colour(colour) => Background::Colour(colour),
     };
+    let number = if args.backdrop.is_some() { worlds.len() - 1 } else { 0 };
+    let behind = |shot: &Shot, worlds: &[Surroundings]| backdrop(&shot.camera, &worlds[number], background);
     // Things turn, and what is behind them stays.
-    let behind = |shot: &Shot| backdrop(&shot.camera, &surroundings[0], background);
-    let behind = || pool.install(|| shots.iter().map(behind).collect::<Vec<Image<Rgba>>>());
-    let behind = (frames.len() > 1).then(behind);
+    let all = || pool.install(|| shots.iter().map(|shot| behind(shot, &surroundings)).collect::<Vec<Image<Rgba>>>());
+    let kept = (frames.len() > 1).then(all);
     let (mut shaded, mut written) = (clock.lap(), 0.0);
     for frame in &frames {
         surroundings.iter_mut().for_each(|world| world.turn_things(frame.turn));

@@ -107,8 +107,10 @@ fn without(args: &ShadeArgs) -> Result<WorldInput> {
     if !args.material.is_chrome() || args.dc.unwrap_or(0.0) > 0.0 {
         return Err(usage("without a world there is only chrome: name a world, or give --material chrome and no --dc"));
     }
-    if args.background == BackgroundName::World {
-        return Err(usage("without a world there is no background; add --background black or transparent"));
+    if args.background == BackgroundName::World && args.backdrop.is_none() {
+        return Err(usage(
+            "without a world there is no background; add --background black, transparent or a --backdrop",
+        ));
     }
     if args.from.is_some() || args.frames.is_some() {
         return Err(usage("--from and --frames are for a world, and there is none; leave them out"));

@@ -19,7 +19,7 @@ pub(super) struct Under {
 }
 
 /// Finds the files of all worlds: that of the picture, those of the scene file, and those of single parts, which the parts
-/// are told of.
+/// are told of. The last is the backdrop, if there is one.
 pub(super) fn worlds(args: &ShadeArgs, things: &mut Things, console: &mut Console) -> Result<Vec<Under>> {
     let asked = Asked { name: &args.world, from: args.from.clone(), frames: args.frames.clone() };
     let proxy =
@@ -39,7 +39,38 @@ pub(super) fn worlds(args: &ShadeArgs, things: &mut Things, console: &mut Consol
         }
         give(things, &part.name, number)?;
     }
+    if let Some(name) = &args.backdrop {
+        worlds.push(backdrop(name, args, console)?);
+    }
     Ok(worlds)
+}
+
+/// Finds the files of the world that is seen behind the things.
+fn backdrop(name: &Name, args: &ShadeArgs, console: &mut Console) -> Result<Under> {
+    let asked = Asked { name, from: args.backdrop_from.clone(), frames: None };
+    if asked.is_none() {
+        return Err(usage("--backdrop: none is no world; name one, or give --background black"));
+    }
+    let input = WorldInput::check(asked, args, console).map_err(|error| of_backdrop(&error))?;
+    Ok(Under { name: name.clone(), input, proxy: None })
+}
+
+/// Returns an error about an input as one about the backdrop.
+fn of_backdrop(error: &Error) -> Error {
+    let option = |setting: Setting| match setting {
+        Setting::From => "--backdrop-from".to_owned(),
+        other => format!("--{}", other.name()),
+    };
+    match error.downcast_ref::<ConvertError>() {
+        Some(found) => of_kind(found.is_of_settings(), found.message().render(option)),
+        None => usage(format!("--backdrop: {error}")),
+    }
+}
+
+/// Makes an error of usage, or one of a file.
+fn of_kind(is_usage: bool, message: String) -> Error {
+    let message = format!("--backdrop: {message}");
+    if is_usage { usage(message) } else { Error::msg(message) }
 }
 
 fn of_file(world: &NamedWorld, args: &ShadeArgs, console: &mut Console) -> Result<Under> {
