@@ -8,6 +8,9 @@ const MOST: usize = 4096;
 /// Area that rounding makes, in squares of the polygon's extent.
 const ROUNDING: f64 = 1e-13;
 
+/// Part of a polygon's area that a fan may have turned over where there are too many corners to cut: circles are rounded.
+const TURNED: f64 = 1e-6;
+
 /// The triangles of a polygon.
 pub(super) struct Cut {
     /// Numbers of its corners, in the polygon's own order around each triangle.
@@ -23,7 +26,8 @@ pub(super) struct Cut {
 /// straight side, where a neighbour may have one, too.
 pub(super) fn cut(points: &[DVec3]) -> Result<Cut, String> {
     let fan = || (1..points.len() - 1).map(|k| [0, k, k + 1]);
-    let plane = area(points).normalize_or_zero();
+    let normal = area(points);
+    let (plane, whole) = (normal.normalize_or_zero(), normal.length());
     let least = ROUNDING * points.iter().map(|point| point.distance_squared(points[0])).fold(0.0, f64::max);
     let part = |[a, b, c]: [usize; 3]| (points[b] - points[a]).cross(points[c] - points[a]);
     if points.len() == 3 || fan().all(|face| part(face).dot(plane) > least) {
@@ -34,13 +38,17 @@ pub(super) fn cut(points: &[DVec3]) -> Result<Cut, String> {
         return Ok(Cut { triangles: fan().collect(), is_crossed: fan().any(|face| part(face).length() > least) });
     }
     if points.len() > MOST {
+        let turned: f64 = fan().map(|face| -part(face).dot(plane).min(0.0)).sum();
+        if turned < TURNED * whole {
+            return Ok(Cut { triangles: fan().collect(), is_crossed: false });
+        }
         let count = points.len();
         return Err(format!("the face bends inward and has {count} corners; expected at most {MOST}, or triangles"));
     }
     let (x, y) = plane.any_orthonormal_pair();
     let from_first = points.iter().map(|point| *point - points[0]);
     let flat: Vec<DVec2> = from_first.map(|point| DVec2::new(point.dot(x), point.dot(y))).collect();
-    Ok(Cut { triangles: Ring::new(&flat, least).cut(), is_crossed: is_crossed(&flat) })
+    Ok(Cut { triangles: Ring::new(&flat, least).cut(), is_crossed: is_crossed(&flat, least) })
 }
 
 /// Returns the polygon's normal, as long as twice its area (M. Newell).
@@ -49,11 +57,13 @@ fn area(points: &[DVec3]) -> DVec3 {
     points.windows(2).map(from_first).sum()
 }
 
-/// Returns whether two sides of a polygon cross each other.
-fn is_crossed(points: &[DVec2]) -> bool {
+/// Returns whether two sides of a polygon cross each other, by more than an area that counts as none.
+fn is_crossed(points: &[DVec2], least: f64) -> bool {
     let side = |k: usize| (points[k], points[(k + 1) % points.len()]);
-    let parts =
-        |(a, b): (DVec2, DVec2), (c, d): (DVec2, DVec2)| (b - a).perp_dot(c - a) * (b - a).perp_dot(d - a) < 0.0;
+    let parts = |(a, b): (DVec2, DVec2), (c, d): (DVec2, DVec2)| {
+        let [c, d] = [c, d].map(|point| (b - a).perp_dot(point - a));
+        c.min(d) < -least && c.max(d) > least
+    };
     let crosses = |one: usize, other: usize| parts(side(one), side(other)) && parts(side(other), side(one));
     (0..points.len()).any(|one| (0..one).any(|other| crosses(one, other)))
 }
@@ -174,8 +184,13 @@ mod tests {
         assert!(
             cut(&bow).unwrap().is_crossed && !cut(&[bow[0], bow[1], bow[1] * 2.0, bow[1] * 3.0]).unwrap().is_crossed
         );
-        let many: Vec<DVec3> =
-            (0..MOST + 2).map(|k| DVec3::new(k as f64, (k % 2) as f64 + 0.1 * k as f64 * k as f64, 0.0)).collect();
-        assert!(cut(&many).is_err_and(|why| why.contains("4098 corners")));
+        // A star.
+        let ray = |k: usize, angle: f64| (1 + k % 2) as f64 * DVec3::new(angle.cos(), angle.sin(), 0.0);
+        let star = (0..MOST + 2).map(|k| ray(k, k as f64 * std::f64::consts::TAU / (MOST + 2) as f64));
+        assert!(cut(&star.collect::<Vec<_>>()).is_err_and(|why| why.contains("4098 corners")));
+        // A circle, whose coordinates are rounded as in files.
+        let round = |angle: f64| DVec3::new((1e6 * angle.cos()).round(), (1e6 * angle.sin()).round(), 0.0);
+        let circle: Vec<DVec3> = (0..2 * MOST).map(|k| round(k as f64 * std::f64::consts::PI / MOST as f64)).collect();
+        assert_eq!(cut(&circle).unwrap().triangles.len(), 2 * MOST - 2);
     }
 }

@@ -129,7 +129,8 @@ pub(super) fn shots(args: &ShadeArgs, things: &Things) -> Result<Vec<Shot>> {
             let camera = of_model(name.as_deref(), &things.cameras)
                 .map_err(|why| Places::wrong(asked.places.projection.as_ref(), "--camera", why))?;
             if asked.eye.is_some() || asked.target.is_some() {
-                let message = "a model's camera has a place; leave them out, or take another --camera".to_owned();
+                let message =
+                    "a model's camera has its own place: leave out eye and target, or take another camera".to_owned();
                 return Err(Places::wrong(asked.places.eye.as_ref(), "--eye, --target:", message));
             }
             let pixels = [size.width, size.height.unwrap_or_else(|| camera.rows(size.width))];
