@@ -9,7 +9,7 @@ use cosmorama::world::World;
 use cosmorama_builtin::BuiltinWorld;
 use cosmorama_convert::{Builtin, Conversion, GeometrySettings, Name, Radiance, WorldLight};
 use cosmorama_io::FrameList;
-use cosmorama_spec::Spec;
+use cosmorama_spec::{Missing, Spec};
 
 use crate::args::{BackgroundName, ShadeArgs};
 use crate::console::Console;
@@ -30,13 +30,20 @@ const NONE: &str = "none";
 const EDGE: usize = 1024;
 
 /// A world as it was asked for.
+#[derive(Clone)]
 pub(super) struct Asked<'a> {
     pub(super) name: &'a Name,
     pub(super) from: Option<Spec>,
     pub(super) frames: Option<FrameList>,
+    pub(super) missing: Missing,
 }
 
-impl Asked<'_> {
+impl<'a> Asked<'a> {
+    /// Asks for a world beside the one that things stand under.
+    pub(super) fn of(name: &'a Name, from: Option<Spec>, args: &ShadeArgs) -> Self {
+        Self { name, from, frames: None, missing: args.missing }
+    }
+
     /// Returns whether no world is asked for.
     pub(super) fn is_none(&self) -> bool {
         **self.name == *NONE
@@ -67,7 +74,7 @@ impl WorldInput {
             input: kept.input(asked.name)?,
             geometry: GeometrySettings { from: asked.from, ..GeometrySettings::default() },
             transfer: args.transfer.clone(),
-            missing: args.missing,
+            missing: asked.missing,
             frames: asked.frames,
             limits: args.limits.clone().into(),
             ..Conversion::default()

@@ -335,6 +335,16 @@ fn a_backdrop_is_seen_behind_things_and_nowhere_else() {
     assert!((middle[0] - 1.0).abs() < 1e-3 && middle[1] < 1e-3, "{middle:?}");
     let differ = |(i, j): &(usize, usize)| (made.get(*i, *j).0[0] - seen.get(*i, *j).0[0]).abs();
     assert!([(0, 0), (5, 40), (63, 10), (12, 24)].iter().map(differ).fold(0.0, f32::max) < 1e-5);
+    // A plate need not show more than the picture does.
+    let plate = ["--backdrop", "map_seen.exr", "--reflect", "ewa", "--depth", "float"];
+    let plated = |from: &'static str| [&["red.exr", "plate.exr", "--backdrop-from", from], &plate[..]].concat();
+    shade(&plated("perspective:fov=80"));
+    assert!(light(&bench, "plate.exr").pixels().iter().all(|pixel| pixel.alpha() > 0.999));
+    let narrow = [&["shade"], &plated("perspective:fov=30")[..], &camera, &["-y"]].concat();
+    std::fs::remove_file(bench.path("plate.exr")).unwrap();
+    assert_says(&bench.fail(1, &narrow), &["--backdrop: map_seen.exr shows nothing in", "pixels", "--missing black"]);
+    bench.succeed(&[&narrow[..], &["--missing", "0,1,0"]].concat());
+    assert!((light(&bench, "plate.exr").get(0, 0).0[1] - 1.0).abs() < 1e-3);
     // Of a whole turn it is the same in all pictures, and chrome has one without a world.
     shade(&["red.exr", "turn_#.exr", "--backdrop", "map.exr", "--turntable", "2"]);
     let [one, two] = ["turn_1.exr", "turn_2.exr"].map(|name| light(&bench, name));
