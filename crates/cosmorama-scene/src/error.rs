@@ -45,9 +45,6 @@ pub enum SceneError {
     /// A lobe is out of range.
     #[error(transparent)]
     Lobe(#[from] LobeError),
-    /// A table of chrome goes by azimuth.
-    #[error("chrome reflects colours by elevation, but the table is by azimuth")]
-    NotByElevation,
     /// The maps of light are not those of the scene's materials.
     #[error("the maps of light are of another scene: there is none for {0}")]
     NoMap(&'static str),

@@ -42,12 +42,13 @@ pub use camera::{Camera, Orthographic, Place};
 pub use error::SceneError;
 pub use formula::{Plate, Plates};
 pub use material::{
-    Finish, Glass, Material, MaterialError, NormalMap, Paint, PictureKind, PictureReader, PictureSource, Refraction,
+    Chrome, Finish, Glass, Highlight, HighlightError, Material, MaterialError, NormalMap, Paint, PictureKind,
+    PictureReader, PictureSource, Refraction,
 };
 pub use model::{EXTENSIONS as MODEL_EXTENSIONS, Model, ModelCamera, ModelError, ModelFault, ModelLens, ModelSettings};
 pub use picture::{Background, backdrop, picture, picture_over};
 pub use ray::{Normal, Ray, RayChange};
 pub use scene::{Object, Part, Scene};
 pub use scene_file::{FileCamera, Located, NamedWorld, SceneFile, SceneFileError, SceneReader};
-pub use shade::{Chrome, Highlight, LightMaps, Proxy, Sky, Surroundings, Walls};
+pub use shade::{LightMaps, Proxy, Sky, Surroundings, Walls};
 pub use shape::{Face, Mesh, MeshError, Normals, Placing, Shape, Sphere};

@@ -48,6 +48,14 @@ impl Object {
         format!("{what}{}", index + 1)
     }
 
+    /// Checks that glass bounds a solid.
+    pub(crate) fn check_glass(&self) -> Result<(), SceneError> {
+        let is_glass = self.parts.iter().any(|part| part.material.glass.is_some());
+        let mesh = self.shape.mesh().filter(|_| is_glass);
+        let hole = mesh.and_then(|mesh| mesh.hole());
+        hole.map_or(Ok(()), |edge| Err(SceneError::Open(edge.map(|end| end.to_array()))))
+    }
+
     /// Returns the thing with one name for all parts.
     pub(crate) fn named(mut self, name: String) -> Self {
         self.parts.iter_mut().for_each(|part| part.name.clone_from(&name));
@@ -115,12 +123,7 @@ impl Scene {
             {
                 return Err(SceneError::Ball { centre: ball.centre.to_array(), radius: ball.radius });
             }
-            let is_glass = object.parts.iter().any(|part| part.material.glass.is_some());
-            if let (true, Shape::Mesh(mesh)) = (is_glass, &object.shape)
-                && let Some(edge) = mesh.hole()
-            {
-                return Err(SceneError::Open(edge.map(|end| end.to_array())));
-            }
+            object.check_glass()?;
         }
         Ok(())
     }

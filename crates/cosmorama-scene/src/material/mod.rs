@@ -1,5 +1,6 @@
 //! Surfaces, and what they do with light.
 
+mod chrome;
 mod finish;
 mod glass;
 mod picture;
@@ -8,6 +9,7 @@ use std::sync::Arc;
 
 use thiserror::Error;
 
+pub use chrome::{Chrome, Highlight, HighlightError};
 pub use finish::{Finish, NormalMap, Paint};
 pub use glass::{Glass, Refraction};
 pub use picture::{PictureKind, PictureReader, PictureSource};
@@ -23,8 +25,8 @@ pub struct Material {
     pub specular: f64,
     /// GGX roughness α of the reflection; 0 is a mirror. That of a finish is its own.
     pub alpha: f64,
-    /// Whether it reflects a table of colours by elevation, and not the world (Greene 1986, section 8).
-    pub chrome: bool,
+    /// Table of colours by elevation that it reflects, and not the world (Greene 1986, section 8).
+    pub chrome: Option<Chrome>,
     /// Glass, which shows the world behind it, too: S is then what it reflects and refracts.
     pub glass: Option<Glass>,
     /// Metallic-roughness: D and S are then times its factors.
@@ -61,6 +63,9 @@ pub enum MaterialError {
     /// A colour is negative or not a number.
     #[error("{0:?} is no colour: expected numbers from 0")]
     Colour([f64; 3]),
+    /// A table of chrome goes by azimuth.
+    #[error("chrome reflects colours by elevation, but the table is by azimuth")]
+    NotByElevation,
 }
 
 impl Material {
@@ -73,15 +78,17 @@ impl Material {
     /// Half a Lambertian reflector, half a mirror: the middle sphere of Greene's Plate 4.
     pub const MIXED: Self = Self::plain(0.5, 0.5);
 
-    /// Cheap chrome.
-    pub const CHROME: Self = Self { diffuse: 0.0, specular: 1.0, alpha: 0.0, chrome: true, glass: None, finish: None };
-
     /// Clear glass of index 1.5.
     pub const GLASS: Self =
-        Self { diffuse: 0.0, specular: 1.0, alpha: 0.0, chrome: false, glass: Some(Glass::new(1.5)), finish: None };
+        Self { diffuse: 0.0, specular: 1.0, alpha: 0.0, chrome: None, glass: Some(Glass::new(1.5)), finish: None };
 
     const fn plain(diffuse: f64, specular: f64) -> Self {
-        Self { diffuse, specular, alpha: 0.0, chrome: false, glass: None, finish: None }
+        Self { diffuse, specular, alpha: 0.0, chrome: None, glass: None, finish: None }
+    }
+
+    /// Returns cheap chrome of a table.
+    pub fn chrome(table: Chrome) -> Self {
+        Self { chrome: Some(table), ..Self::MIRROR }
     }
 
     /// Returns metallic-roughness.
@@ -124,7 +131,7 @@ impl Material {
     /// Returns the least and the greatest α of what it reflects of the world; `None` if it reflects nothing of it.
     pub(crate) fn alphas(&self) -> Option<[f64; 2]> {
         let alphas = || self.finish.as_ref().map_or([self.alpha; 2], |finish| finish.alphas());
-        (self.reflects() && !self.chrome).then(alphas)
+        (self.reflects() && self.chrome.is_none()).then(alphas)
     }
 
     /// Checks that the numbers are in range.

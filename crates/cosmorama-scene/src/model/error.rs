@@ -3,6 +3,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
+use crate::error::SceneError;
 use crate::shape::MeshError;
 
 /// Reason why there is no model.
@@ -38,6 +39,12 @@ pub enum ModelFault {
     /// It needs what is not known.
     #[error("it requires extensions of glTF that are not supported: {0}; export it without them")]
     Required(String),
+    /// It is of another version of glTF.
+    #[error("it is of glTF {0}; expected 2.0, or a version that 2.0 can read")]
+    Version(String),
+    /// Its glass bounds no solid.
+    #[error(transparent)]
+    Glass(#[from] SceneError),
     /// A piece of it is wrong.
     #[error("{piece} {why}")]
     Piece {

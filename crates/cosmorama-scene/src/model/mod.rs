@@ -6,6 +6,7 @@ mod file;
 mod gltf;
 mod mtl;
 mod obj;
+mod polygon;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -142,13 +143,13 @@ fn read(path: &Path, settings: &ModelSettings, pictures: &mut dyn PictureReader)
 /// Gives a model another material, on all parts.
 ///
 /// # Errors
-/// When the material has pictures, and the model no texture coordinates.
+/// When the material has pictures, and the model no texture coordinates, or when it is glass, and the model is open.
 pub(crate) fn coat(object: &mut Object, material: &Material) -> Result<(), ModelFault> {
     if material.has_pictures() && object.shape.mesh().is_some_and(|mesh| !mesh.has_maps()) {
         return Err(ModelFault::NoCoordinates);
     }
     object.parts.iter_mut().for_each(|part| part.material = material.clone());
-    Ok(())
+    Ok(object.check_glass()?)
 }
 
 /// Tells which parts of a model have pictures that are not shown on all of them.

@@ -8,6 +8,7 @@ use glam::{DVec2, DVec3};
 
 use super::file::{self, beside};
 use super::mtl::{Entry, Library};
+use super::polygon::{self, Cut};
 use super::{Contents, ModelFault, ModelSettings};
 use crate::material::{Material, PictureReader};
 use crate::scene::Part;
@@ -39,6 +40,8 @@ struct Reader<'a> {
     ignored: BTreeSet<String>,
     /// Whether vertices have colours.
     has_colours: bool,
+    /// Number of faces that cross themselves.
+    crossed: usize,
     /// Folder of the file.
     folder: PathBuf,
 }
@@ -66,6 +69,9 @@ pub(super) fn read(
     reader.name_parts();
     let ignored = ignored(&reader);
     reader.contents.notes.extend(ignored);
+    if reader.crossed > 0 {
+        reader.contents.notes.push(format!("{} faces cross themselves, and are not filled as drawn", reader.crossed));
+    }
     let lost = reader.lost.into_iter().map(|name| format!("material {name} is in no library: its parts are mirrors"));
     reader.contents.notes.extend(lost);
     Ok(reader.contents)
@@ -109,6 +115,7 @@ impl<'a> Reader<'a> {
             lost: BTreeSet::new(),
             ignored: BTreeSet::new(),
             has_colours: false,
+            crossed: 0,
             folder,
         }
     }
@@ -160,13 +167,15 @@ impl<'a> Reader<'a> {
     fn face(&mut self, text: &str) -> Result<(), String> {
         let corners =
             text.split_ascii_whitespace().map(|word| self.corner(word)).collect::<Result<Vec<Corner>, _>>()?;
-        let [first, others @ ..] = corners.as_slice() else { return Err("the face has no corner".to_owned()) };
-        if others.len() < 2 {
+        if corners.len() < 3 {
             return Err(format!("the face has {} corners; expected at least 3", corners.len()));
         }
         let part = self.part()?;
-        for pair in others.windows(2) {
-            let face = [*first, pair[0], pair[1]];
+        let points: Vec<DVec3> = corners.iter().map(|corner| self.points[corner.0]).collect();
+        let Cut { triangles, is_crossed } = polygon::cut(&points)?;
+        self.crossed += usize::from(is_crossed);
+        for face in triangles {
+            let face = face.map(|corner| corners[corner]);
             let normals = face.map(|corner| corner.2.map(|index| self.normals[index]));
             let uvs = face.map(|corner| corner.1.map(|index| self.uvs[index]));
             self.contents.faces.push(Face {
@@ -257,7 +266,8 @@ pub(super) fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
     let mut numbers = [0.0; N];
     for number in &mut numbers {
         let word = words.next().ok_or_else(|| format!("expected {N} numbers, but found '{text}'"))?;
-        *number = word.parse().map_err(|_| format!("expected a number, but found '{word}'"))?;
+        let found = word.parse().ok().filter(|number: &f64| number.is_finite());
+        *number = found.ok_or_else(|| format!("expected a number, but found '{word}'"))?;
     }
     Ok(numbers)
 }

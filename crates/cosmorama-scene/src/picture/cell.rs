@@ -9,7 +9,7 @@ use super::small::Reflection;
 use crate::camera::Camera;
 use crate::ray::Ray;
 use crate::scene::Scene;
-use crate::shade::{Beam, Detail, Gloss, Surroundings};
+use crate::shade::{Beam, Detail, Surroundings};
 use crate::shape::{Meeting, Shape, Sphere, Wall};
 
 /// Maker of single pixels.
@@ -205,7 +205,7 @@ impl<'a> Pixel<'a> {
         let widest = Beam::widest(&beams, surface.reflected());
         // A blurred world has no detail that smaller parts would show.
         let blur = surface.gloss.blur();
-        let is_mirror = beams.len() == 1 && object.shape.mesh().is_some() && surface.gloss != Gloss::Chrome;
+        let is_mirror = beams.len() == 1 && object.shape.mesh().is_some() && !surface.gloss.is_chrome();
         let twice = is_mirror && widest > MIRRORED.max(blur) && seen.depth < TWICE;
         let split =
             widest > STRAIGHT.max(blur) && seen.depth < MOST || widest > ROUGH.max(blur) && seen.depth < AT_ONCE;

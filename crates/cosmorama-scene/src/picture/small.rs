@@ -49,7 +49,7 @@ struct Patch {
 /// Maker of a ball's reflection.
 struct Thrower<'a> {
     sphere: &'a Sphere,
-    gloss: Gloss,
+    gloss: Gloss<'a>,
     camera: &'a Camera,
     surroundings: &'a Surroundings<'a>,
 }
@@ -63,7 +63,7 @@ impl Reflection {
         if !surroundings.is_far() {
             return None;
         }
-        let gloss = Gloss::of(material).filter(|gloss| *gloss != Gloss::Chrome && material.glass.is_none())?;
+        let gloss = Gloss::of(material).filter(|gloss| !gloss.is_chrome() && material.glass.is_none())?;
         let radius = radius_in_pixels(sphere, camera).filter(|radius| *radius < SMALL)?;
         if !is_in_frame(camera.pixel(sphere.centre)?, camera) {
             return None;

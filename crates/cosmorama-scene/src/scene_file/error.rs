@@ -61,8 +61,12 @@ impl Source {
 
     /// Returns the file and the line.
     pub(super) fn place(&self, span: Option<Range<usize>>) -> String {
-        let line = |span: Range<usize>| 1 + self.text.bytes().take(span.start).filter(|byte| *byte == b'\n').count();
         let path = self.path.display();
-        span.map_or_else(|| path.to_string(), |span| format!("{path}, line {}", line(span)))
+        span.map_or_else(|| path.to_string(), |span| format!("{path}, line {}", self.line(&span)))
+    }
+
+    /// Returns the line, from 1 on.
+    pub(super) fn line(&self, span: &Range<usize>) -> usize {
+        1 + self.text.bytes().take(span.start).filter(|byte| *byte == b'\n').count()
     }
 }

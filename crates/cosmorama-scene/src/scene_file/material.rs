@@ -3,12 +3,16 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use cosmorama::filter::{Texture, Wrap};
+use cosmorama::lighting::TableAngle;
 use cosmorama::raster::{Image, Rgba};
-use toml::Spanned;
+use cosmorama::sphere::Orientation;
+use cosmorama_spec::colour_table_of_stops;
 
 use super::error::{SceneFileError, Source};
-use super::written::{Kind, MaterialEntry, WrapName};
-use crate::material::{Finish, Glass, Material, NormalMap, Paint, PictureKind, PictureReader, PictureSource};
+use super::written::{Key, Kind, MaterialEntry, WrapName, place, value};
+use crate::material::{
+    Chrome, Finish, Glass, Material, MaterialError, NormalMap, Paint, PictureKind, PictureReader, PictureSource,
+};
 use crate::shape::Sphere;
 
 /// Roughness of metallic-roughness, unless given.
@@ -23,70 +27,116 @@ impl MaterialEntry {
         is_ball: bool,
         reader: &mut dyn PictureReader,
     ) -> Result<Material, SceneFileError> {
-        let wrong = |message: &str| source.error(Some(at.clone()), message);
-        if self.normal_scale.is_some() && self.normal_texture.is_none() {
-            return Err(wrong("normal_scale is for a normal_texture; name one"));
-        }
-        if self.wrap.is_some() && self.pictures().all(Option::is_none) {
-            return Err(wrong("wrap is for pictures; name one, as in texture = \"map.png\""));
-        }
         let usual = match self.kind {
             Some(Kind::Mirror) => Material::MIRROR,
             Some(Kind::Matte) => Material::MATTE,
             Some(Kind::Mixed) => Material::MIXED,
             Some(Kind::Glass) => Material::GLASS,
-            Some(Kind::Chrome) => Material::CHROME,
+            Some(Kind::Chrome) => Material::chrome(self.table(source)?),
             Some(Kind::Metallic) | None => Material::of(Finish { roughness: ROUGHNESS, ..Finish::default() }),
         };
+        if let Some((at, message)) = self.misplaced(&usual) {
+            return Err(source.error(Some(at), message));
+        }
         let finish = match usual.paintable() {
             Some(found) if self.is_painted() || usual.finish.is_some() => {
                 Some(Arc::new(self.finish(found, source, is_ball, reader)?))
             }
-            None if self.is_painted() => {
-                let message = "color, textures, metallic, roughness and specular are for the kinds matte and metallic";
-                return Err(wrong(message));
-            }
             _ => None,
         };
-        let is_glass = usual.glass.is_some();
-        if !is_glass && (self.absorption.is_some() || self.surfaces.is_some() || self.ior.is_some() && finish.is_none())
-        {
-            return Err(wrong("ior, absorption and surfaces are for the kind glass"));
-        }
-        if let (Some([red, green, blue]), true) = (self.ior.map(|ior| ior.by_colour()), finish.is_some())
-            && (red != green || green != blue)
-        {
-            return Err(wrong("ior is one number here; three are for the kind glass"));
-        }
-        if self.alpha.is_some() && finish.is_some() {
-            return Err(wrong("alpha is the square of roughness here; give that"));
-        }
         let glass = usual.glass.map(|glass| Glass {
-            index: self.ior.map_or(glass.index, |ior| ior.by_colour()),
-            absorption: self.absorption.map_or(glass.absorption, |absorption| absorption.by_colour()),
-            surfaces: self.surfaces.unwrap_or(glass.surfaces),
+            index: value(&self.ior).map_or(glass.index, |ior| ior.by_colour()),
+            absorption: value(&self.absorption).map_or(glass.absorption, |absorption| absorption.by_colour()),
+            surfaces: value(&self.surfaces).unwrap_or(glass.surfaces),
             ..glass
         });
         let material = Material {
-            diffuse: self.dc.unwrap_or(usual.diffuse),
-            specular: self.sc.unwrap_or(usual.specular),
-            alpha: self.alpha.unwrap_or(usual.alpha),
+            diffuse: value(&self.dc).unwrap_or(usual.diffuse),
+            specular: value(&self.sc).unwrap_or(usual.specular),
+            alpha: value(&self.alpha).unwrap_or(usual.alpha),
             glass,
             finish,
             ..usual
         };
-        material.check().map_err(|error| wrong(&error.to_string()))?;
+        let wrong = |error: MaterialError| source.error(self.key_of(&error).or(Some(at)), error.to_string());
+        material.check().map_err(wrong)?;
         Ok(material)
+    }
+
+    /// Returns the table of chrome; that of earth and sky if none is given.
+    fn table(&self, source: &Source) -> Result<Chrome, SceneFileError> {
+        let Some(text) = &self.chrome else { return Ok(Chrome::earth_and_sky()) };
+        let wrong = |why: String| source.error(Some(text.span()), format!("chrome = \"{}\": {why}", text.get_ref()));
+        let table = colour_table_of_stops(text.get_ref(), (TableAngle::Elevation, Orientation::IDENTITY));
+        Chrome::new(&table.map_err(wrong)?, Vec::new()).map_err(|error| wrong(error.to_string()))
+    }
+
+    /// Finds a key that is for other materials: its place, and what it is for.
+    fn misplaced(&self, usual: &Material) -> Option<(Range<usize>, &'static str)> {
+        let is_painted = usual.finish.is_some() || usual.paintable().is_some() && self.is_painted();
+        let (is_glass, has_pictures) = (usual.glass.is_some(), self.pictures().any(Option::is_some));
+        let is_grey = |[red, green, blue]: [f64; 3]| red == green && green == blue;
+        let glassy = [place(&self.absorption), place(&self.surfaces)].into_iter().flatten().next();
+        let rules = [
+            (
+                place(&self.normal_scale).filter(|_| self.normal_texture.is_none()),
+                "normal_scale is for a normal_texture; name one",
+            ),
+            (
+                place(&self.wrap).filter(|_| !has_pictures),
+                "wrap is for pictures; name one, as in texture = \"map.png\"",
+            ),
+            (
+                place(&self.chrome).filter(|_| usual.chrome.is_none()),
+                "chrome is the table of chrome; add kind = \"chrome\"",
+            ),
+            (
+                self.painted().filter(|_| usual.paintable().is_none()),
+                "color, textures, metallic, roughness and specular are for the kinds matte and metallic",
+            ),
+            (glassy.filter(|_| !is_glass), "absorption and surfaces are for the kind glass"),
+            (place(&self.ior).filter(|_| !is_glass && !is_painted), "ior is for the kinds glass and metallic"),
+            (
+                place(&self.ior).filter(|_| !is_glass && !value(&self.ior).is_some_and(|ior| is_grey(ior.by_colour()))),
+                "ior is one number here; three are for the kind glass",
+            ),
+            (place(&self.alpha).filter(|_| is_painted), "alpha is the square of roughness here; give that"),
+        ];
+        rules.into_iter().find_map(|(at, message)| Some((at?, message)))
+    }
+
+    /// Returns the place of the number that is out of range.
+    fn key_of(&self, error: &MaterialError) -> Option<Range<usize>> {
+        let number = |keys: &[&Key<f64>], wrong: f64| {
+            let is_it = |key: &&&Key<f64>| value(key).is_some_and(|found| found.to_bits() == wrong.to_bits());
+            keys.iter().find(is_it).and_then(|key| place(key))
+        };
+        match error {
+            MaterialError::Coefficient(wrong) => number(&[&self.dc, &self.sc], *wrong),
+            MaterialError::Alpha(_) => place(&self.alpha),
+            MaterialError::Index(_) => place(&self.ior),
+            MaterialError::Absorption(_) => place(&self.absorption),
+            MaterialError::Surfaces(_) => place(&self.surfaces),
+            MaterialError::Part(wrong) => number(&[&self.metallic, &self.roughness, &self.specular], *wrong),
+            MaterialError::NormalScale(_) => place(&self.normal_scale),
+            MaterialError::Colour(_) => place(&self.color).or(place(&self.emissive)),
+            MaterialError::NotByElevation => place(&self.chrome),
+        }
     }
 
     /// Returns whether there is a number or a picture of metallic-roughness.
     fn is_painted(&self) -> bool {
-        let numbers = [self.metallic, self.roughness, self.specular].iter().any(Option::is_some);
-        let colours = self.color.is_some() || self.emissive.is_some();
-        numbers || colours || self.pictures().any(|picture| picture.is_some())
+        self.painted().is_some()
     }
 
-    fn pictures(&self) -> impl Iterator<Item = &Option<Spanned<PathBuf>>> {
+    /// Returns the place of a number or a picture of metallic-roughness.
+    fn painted(&self) -> Option<Range<usize>> {
+        let numbers = [&self.metallic, &self.roughness, &self.specular].map(place);
+        let colours = [&self.color, &self.emissive].map(place);
+        numbers.into_iter().chain(colours).chain(self.pictures().map(place)).flatten().next()
+    }
+
+    fn pictures(&self) -> impl Iterator<Item = &Key<PathBuf>> {
         [&self.texture, &self.metal_texture, &self.emissive_texture, &self.normal_texture].into_iter()
     }
 
@@ -97,9 +147,9 @@ impl MaterialEntry {
         is_ball: bool,
         reader: &mut dyn PictureReader,
     ) -> Result<Finish, SceneFileError> {
-        let across = self.wrap.unwrap_or_default().wrap();
+        let across = value(&self.wrap).unwrap_or_default().wrap();
         let wrap = if is_ball { Sphere::wrap(across) } else { [across; 2] };
-        let mut picture = |path: &Option<Spanned<PathBuf>>, kind: PictureKind| {
+        let mut picture = |path: &Key<PathBuf>, kind: PictureKind| {
             let Some(path) = path else { return Ok(None) };
             let found = reader.picture(PictureSource::File(&source.folder().join(path.get_ref())), kind);
             found.map(Some).map_err(|message| source.error(Some(path.span()), message))
@@ -108,19 +158,19 @@ impl MaterialEntry {
         let normals = picture(&self.normal_texture, PictureKind::Numbers)?;
         let emissive_map = picture(&self.emissive_texture, PictureKind::Colour)?.map(map);
         let dark = if emissive_map.is_some() { [1.0; 3] } else { usual.emissive.colour };
-        let index = self.ior.map_or(usual.index, |ior| ior.by_colour()[0]);
+        let index = value(&self.ior).map_or(usual.index, |ior| ior.by_colour()[0]);
         Ok(Finish {
             base: Paint {
-                colour: self.color.map_or(usual.base.colour, |color| color.0),
+                colour: value(&self.color).map_or(usual.base.colour, |color| color.0),
                 map: picture(&self.texture, PictureKind::Colour)?.map(map),
             },
-            metallic: self.metallic.unwrap_or(usual.metallic),
-            roughness: self.roughness.unwrap_or(usual.roughness),
-            specular: self.specular.unwrap_or(usual.specular),
+            metallic: value(&self.metallic).unwrap_or(usual.metallic),
+            roughness: value(&self.roughness).unwrap_or(usual.roughness),
+            specular: value(&self.specular).unwrap_or(usual.specular),
             index,
-            emissive: Paint { colour: self.emissive.map_or(dark, |emissive| emissive.0), map: emissive_map },
+            emissive: Paint { colour: value(&self.emissive).map_or(dark, |emissive| emissive.0), map: emissive_map },
             metal_map: picture(&self.metal_texture, PictureKind::Numbers)?.map(map),
-            normal_map: normals.map(|normals| NormalMap::new(&normals, wrap, self.normal_scale.unwrap_or(1.0))),
+            normal_map: normals.map(|normals| NormalMap::new(&normals, wrap, value(&self.normal_scale).unwrap_or(1.0))),
         })
     }
 }

@@ -1,27 +1,26 @@
-//! Scene files: things, materials, worlds and a camera, in TOML.
+//! Scene files: things, materials, lights, worlds and a camera, in TOML.
 
+mod check;
 mod error;
 mod material;
 mod written;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use cosmorama::raster::{Image, Rgba};
 use cosmorama::sphere::{Angle, Orientation};
-use cosmorama_spec::did_you_mean;
 use toml::Spanned;
 
-use crate::material::{Material, PictureKind, PictureReader, PictureSource};
+use crate::material::{Chrome, Highlight, Material, PictureKind, PictureReader, PictureSource};
 use crate::model::{ModelFault, ModelSettings, bare, coat};
 use crate::scene::{Object, Scene};
 use crate::shade::Proxy;
 use crate::shape::{Placing, Shape, Sphere};
 
 use error::Source;
-use written::{ObjectEntry, Written};
+use written::{Key, ObjectEntry, Written, value};
 
 pub use error::SceneFileError;
 
@@ -91,24 +90,24 @@ pub struct NamedWorld {
     pub proxy: Option<Proxy>,
 }
 
-/// A text of a scene file, and where it stands.
+/// Value of a key of a scene file, and its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Located {
-    /// The text.
-    pub text: String,
+pub struct Located<T = String> {
+    /// Value.
+    pub value: T,
     /// File and line.
     pub place: String,
 }
 
 /// Camera of a scene file, as far as it is given.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct FileCamera {
     /// Its projection.
     pub projection: Option<Located>,
     /// Place of its eye.
-    pub eye: Option<[f64; 3]>,
+    pub eye: Option<Located<[f64; 3]>>,
     /// Point that it looks at.
-    pub target: Option<[f64; 3]>,
+    pub target: Option<Located<[f64; 3]>>,
     /// Size of its picture.
     pub size: Option<Located>,
 }
@@ -165,9 +164,6 @@ impl PictureReader for Unread {
     }
 }
 
-/// Most things of a file.
-const MOST_OBJECTS: usize = 100_000;
-
 impl SceneFile {
     /// Greatest length of a scene file in bytes: that of all the things that one may have.
     pub const LONGEST: usize = 16 << 20;
@@ -182,30 +178,19 @@ impl SceneFile {
             return Err(source.error(None, format!("more than {} bytes, which no scene file is", Self::LONGEST)));
         }
         let written: Written = toml::from_str(text).map_err(|error| source.malformed(&error))?;
-        if written.object.is_empty() {
-            return Err(source.error(None, "there is no [[object]] in it; one is shape = \"sphere\" and a material"));
-        }
-        if written.object.len() > MOST_OBJECTS {
-            let message = format!("{} objects, but {MOST_OBJECTS} are the most", written.object.len());
-            return Err(source.error(None, message));
-        }
         let file = Self { source, written };
-        file.worlds()?;
-        for object in &file.written.object {
-            file.check(object)?;
-        }
+        file.check()?;
         Ok(file)
     }
 
     /// Returns the camera.
     pub fn camera(&self) -> FileCamera {
         let camera = &self.written.camera;
-        let located = |text: &Option<Spanned<String>>| text.as_ref().map(|text| self.located(text));
         FileCamera {
-            projection: located(&camera.projection),
-            eye: camera.eye,
-            target: camera.target,
-            size: located(&camera.size),
+            projection: self.located(&camera.projection),
+            eye: self.located(&camera.eye),
+            target: self.located(&camera.target),
+            size: self.located(&camera.size),
         }
     }
 
@@ -219,15 +204,15 @@ impl SceneFile {
                 let walls = text.get_ref().parse().map_err(|error: String| {
                     self.source.error(Some(text.span()), format!("proxy = \"{}\": {error}", text.get_ref()))
                 })?;
-                Ok(Proxy { centre: entry.centre.into(), walls })
+                Ok(Proxy { centre: value(&entry.centre).unwrap_or_default().into(), walls })
             };
-            if !entry.centre.iter().all(|number| number.is_finite()) {
-                return Err(self.source.error(Some(entry.image.span()), "centre takes finite numbers"));
-            }
+            self.check_point("centre", &entry.centre)?;
+            let (image, place) =
+                (self.source.beside(entry.image.get_ref()), self.source.place(Some(entry.image.span())));
             Ok(NamedWorld {
                 name: name.clone(),
-                image: Located { text: self.source.beside(entry.image.get_ref()), ..self.located(&entry.image) },
-                spec: entry.spec.as_ref().map(|spec| self.located(spec)),
+                image: Located { value: image, place },
+                spec: self.located(&entry.spec),
                 proxy: entry.proxy.as_ref().map(walls).transpose()?,
             })
         };
@@ -251,7 +236,7 @@ impl SceneFile {
             let mut object = match &entry.file {
                 Some(file) => self.model(entry, (file, material), (&mut models, reader))?,
                 None => {
-                    let name = entry.name.clone().unwrap_or_else(|| Object::numbered("sphere", index));
+                    let name = entry.name_of_sphere(index);
                     Object::sphere(entry.sphere(), material.unwrap_or_default()).named(name)
                 }
             };
@@ -269,12 +254,14 @@ impl SceneFile {
         (file, material): (&Spanned<PathBuf>, Option<Material>),
         (models, reader): (&mut Models, &mut dyn SceneReader),
     ) -> Result<Object, SceneFileError> {
-        let crease = entry.crease.map(Angle::from_degrees);
+        let crease = value(&entry.crease).map(Angle::from_degrees);
         let settings = ModelSettings { crease, material, most: usize::MAX, placing: Some(entry.placing()) };
         let found = models.model(self.source.folder().join(file.get_ref()), settings, reader);
-        let mut object = found.map_err(|message| self.source.error(Some(file.span()), message))?;
+        let thing = entry.name.as_ref().map_or_else(String::new, |name| format!("object '{}': ", name.get_ref()));
+        let wrong = |message: String| self.source.error(Some(file.span()), format!("{thing}{message}"));
+        let mut object = found.map_err(wrong)?;
         if let Some(name) = &entry.name {
-            object.parts.iter_mut().for_each(|part| part.name = format!("{name}/{}", part.name));
+            object.parts.iter_mut().for_each(|part| part.name = format!("{}/{}", name.get_ref(), part.name));
         }
         Ok(object)
     }
@@ -290,11 +277,11 @@ impl SceneFile {
             return Ok(made.clone());
         }
         let (name, is_ball) = &wanted;
-        let usual = || USUAL.into_iter().find(|(usual, _)| usual == name).map(|(_, material)| material);
-        let material = match self.written.material.get(name) {
+        let mut material = match self.written.material.get(name) {
             Some(entry) => entry.get_ref().material(entry.span(), &self.source, *is_ball, reader)?,
-            None => usual().unwrap_or_default(),
+            None => usual(name),
         };
+        material.chrome = material.chrome.map(|chrome| chrome.with_highlights(self.lights()));
         made.insert(wanted, material.clone());
         Ok(material)
     }
@@ -308,61 +295,45 @@ impl SceneFile {
         Ok(())
     }
 
-    /// Checks that what an object names is there, and that its numbers are some.
-    fn check(&self, object: &Spanned<ObjectEntry>) -> Result<(), SceneFileError> {
-        let entry = object.get_ref();
-        let materials = self.written.material.keys().map(String::as_str).chain(USUAL.into_iter().map(|(name, _)| name));
-        self.known("material", entry.material.as_ref(), materials.collect())?;
-        self.known("world", entry.world.as_ref(), self.written.world.keys().map(String::as_str).collect())?;
-        let wrong = |message: &str, at: Range<usize>| Err(self.source.error(Some(at), message));
-        if entry.shape.is_some() == entry.file.is_some() {
-            return wrong("an object has a shape = \"sphere\", or a file = \"model.obj\"", object.span());
-        }
-        if entry.crease.is_some_and(|crease| !(0.0..=180.0).contains(&crease))
-            || entry.crease.is_some() && entry.file.is_none()
-        {
-            return wrong("crease is an angle from 0 to 180 degrees, of a model's file", object.span());
-        }
-        if !entry.translate.iter().chain(&entry.rotate).all(|number| number.is_finite()) {
-            return wrong("translate and rotate take finite numbers", object.span());
-        }
-        match entry.scale {
-            Some(scale) if !(scale.is_finite() && scale > 0.0) => {
-                wrong(&format!("scale = {scale}: expected a number more than 0"), object.span())
-            }
-            _ => Ok(()),
-        }
+    /// Returns the lights that shine on chrome; those that are wrong were told before.
+    fn lights(&self) -> Vec<Highlight> {
+        self.written.light.iter().filter_map(|light| light.highlight().ok()).collect()
     }
 
-    fn known(&self, what: &str, name: Option<&Spanned<String>>, known: Vec<&str>) -> Result<(), SceneFileError> {
-        let Some(name) = name.filter(|name| !known.contains(&name.get_ref().as_str())) else { return Ok(()) };
-        let all = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
-        let meant = did_you_mean(name.get_ref(), &known);
-        let message = format!("there is no {what} '{}'; there is {all}{meant}", name.get_ref());
-        Err(self.source.error(Some(name.span()), message))
-    }
-
-    fn located(&self, text: &Spanned<String>) -> Located {
-        Located { text: text.get_ref().clone(), place: self.source.place(Some(text.span())) }
+    fn located<T: Clone>(&self, key: &Key<T>) -> Option<Located<T>> {
+        let located =
+            |key: &Spanned<T>| Located { value: key.get_ref().clone(), place: self.source.place(Some(key.span())) };
+        key.as_ref().map(located)
     }
 }
 
 /// Materials that need no entry.
-const USUAL: [(&str, Material); 5] = [
-    ("mirror", Material::MIRROR),
-    ("matte", Material::MATTE),
-    ("mixed", Material::MIXED),
-    ("glass", Material::GLASS),
-    ("chrome", Material::CHROME),
-];
+const USUAL: [&str; 5] = ["mirror", "matte", "mixed", "glass", CHROME];
+const CHROME: &str = "chrome";
+
+/// Returns the material of a name that needs no entry.
+fn usual(name: &str) -> Material {
+    match name {
+        "matte" => Material::MATTE,
+        "mixed" => Material::MIXED,
+        "glass" => Material::GLASS,
+        CHROME => Material::chrome(Chrome::earth_and_sky()),
+        _ => Material::MIRROR,
+    }
+}
 
 impl ObjectEntry {
+    /// Returns the name that it has as a sphere.
+    fn name_of_sphere(&self, index: usize) -> String {
+        self.name.as_ref().map_or_else(|| Object::numbered("sphere", index), |name| name.get_ref().clone())
+    }
+
     fn placing(&self) -> Placing {
-        let [yaw, pitch, roll] = self.rotate.map(Angle::from_degrees);
+        let [yaw, pitch, roll] = value(&self.rotate).unwrap_or_default().map(Angle::from_degrees);
         Placing {
-            scale: self.scale.unwrap_or(1.0),
+            scale: value(&self.scale).unwrap_or(1.0),
             turn: Orientation::from_yaw_pitch_roll(yaw, pitch, roll),
-            origin: self.translate.into(),
+            origin: value(&self.translate).unwrap_or_default().into(),
         }
     }
 
@@ -442,10 +413,11 @@ world = "room"
         assert_eq!(left.material.finish.as_ref().map(|finish| finish.roughness), Some(0.3));
         assert_eq!((left.world, right.world, &right.material), (0, 1, &Material::GLASS));
         let worlds = file.worlds().unwrap();
-        assert_eq!(worlds[0].image, Located { text: "room.hdr".to_owned(), place: "a.toml, line 7".to_owned() });
+        assert_eq!(worlds[0].image, Located { value: "room.hdr".to_owned(), place: "a.toml, line 7".to_owned() });
         let centre = DVec3::new(0.0, 1.5, 0.0);
         assert_eq!(worlds[0].proxy.map(|proxy| proxy.centre), Some(centre));
-        assert_eq!(file.camera().eye, Some([0.0, 1.0, 8.0]));
+        let eye = Located { value: [0.0, 1.0, 8.0], place: "a.toml, line 4".to_owned() };
+        assert_eq!(file.camera().eye, Some(eye));
     }
 
     #[test]
@@ -456,19 +428,30 @@ world = "room"
             ("\"room\"\n", "\"rom\"\n", &["line 26: there is no world 'rom'", "did you mean 'room'?"]),
             ("box:8,3,6", "box:8,3", &["line 9", "box:8,3", "box:X,Y,Z"]),
             ("\"#ffcc66\"", "\"beige\"", &["line 14", "'beige'", "#rrggbb"]),
-            ("metallic = 1", "metallic = 2", &["line 11", "2 is outside 0 to 1"]),
+            ("metallic = 1", "metallic = 2", &["line 12", "2 is outside 0 to 1"]),
+            ("roughness = 0.3", "roughness = 3", &["line 13", "3 is outside 0 to 1"]),
             ("metallic = 1", "metallic = \"all\"", &["line 12", "a number"]),
             ("\"sphere\"", "\"ball\"", &["line 18", "unknown name `ball`", "sphere"]),
-            ("scale = 0.5", "scale = 0", &["scale = 0", "more than 0"]),
+            ("scale = 0.5", "scale = 0", &["line 21: scale = 0", "more than 0"]),
             ("scale = 0.5", "scale = nan", &["scale = NaN"]),
             ("metallic = 1", "texture = \"lost.png\"", &["line 12", "no such picture"]),
-            ("metallic = 1", "kind = \"mirror\"", &["line 11", "matte and metallic"]),
+            ("metallic = 1", "kind = \"mirror\"", &["line 13", "matte and metallic"]),
             ("shape = \"sphere\"", "file = \"horse.obj\"", &["line 18", "no such model: horse.obj at [-1, 0, 0.5]"]),
             ("shape = \"sphere\"", "", &["line 16", "a file = \"model.obj\""]),
-            ("scale = 0.5", "crease = 40", &["crease", "of a model's file"]),
+            ("scale = 0.5", "crease = 40", &["line 21", "crease", "of a model's file"]),
+            ("[-1, 0, 0.5]", "[-1, inf, 0.5]", &["line 20", "translate"]),
+            ("[0, 1.5, 0]", "[0, nan, 0]", &["line 8", "centre"]),
+            ("[0, 1, 8]", "[0, 1, inf]", &["line 4", "eye"]),
+            ("[0, 1, 8]", "[0, 1]", &["line 4"]),
             ("[camera]", "[camera", &["line 2"]),
-            ("metallic = 1", "normal_scale = 2", &["line 11", "normal_texture"]),
-            ("metallic = 1", "wrap = 'mirror'", &["line 11", "wrap is for pictures"]),
+            ("metallic = 1", "normal_scale = 2", &["line 12", "normal_texture"]),
+            ("metallic = 1", "wrap = 'mirror'", &["line 12", "wrap is for pictures"]),
+            ("metallic = 1", "ior = [1, 2, 3]", &["line 12", "ior is one number here"]),
+            ("metallic = 1", "ior = 9", &["line 12", "9 is outside"]),
+            ("metallic = 1", "alpha = 1", &["line 12", "alpha is the square"]),
+            ("metallic = 1", "surfaces = 3", &["line 12", "for the kind glass"]),
+            ("metallic = 1", "dc = -1", &["line 12", "a coefficient of -1"]),
+            ("metallic = 1", "chrome = '0=red'", &["line 12", "kind = \"chrome\""]),
             ("\n[material.gold]", "\n[material.unused]\nmetallic = 3\n[material.gold]", &["3 is outside 0 to 1"]),
         ] {
             let error = error(from, to);

@@ -1,12 +1,26 @@
 //! A scene file as written.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::PathBuf;
 
 use cosmorama::raster::Rgba;
 use cosmorama_spec::Colour;
 use serde::Deserialize;
 use toml::Spanned;
+
+/// A key that may be left out, with its place in the text.
+pub(super) type Key<T> = Option<Spanned<T>>;
+
+/// Returns what a key says.
+pub(super) fn value<T: Copy>(key: &Key<T>) -> Option<T> {
+    key.as_ref().map(|key| *key.get_ref())
+}
+
+/// Returns where a key is.
+pub(super) fn place<T>(key: &Key<T>) -> Option<Range<usize>> {
+    key.as_ref().map(Spanned::span)
+}
 
 /// All of a file.
 #[derive(Clone, Debug, Deserialize)]
@@ -19,6 +33,8 @@ pub(super) struct Written {
     #[serde(default)]
     pub(super) material: BTreeMap<String, Spanned<MaterialEntry>>,
     #[serde(default)]
+    pub(super) light: Vec<LightEntry>,
+    #[serde(default)]
     pub(super) object: Vec<Spanned<ObjectEntry>>,
 }
 
@@ -26,10 +42,10 @@ pub(super) struct Written {
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CameraEntry {
-    pub(super) projection: Option<Spanned<String>>,
-    pub(super) eye: Option<[f64; 3]>,
-    pub(super) target: Option<[f64; 3]>,
-    pub(super) size: Option<Spanned<String>>,
+    pub(super) projection: Key<String>,
+    pub(super) eye: Key<[f64; 3]>,
+    pub(super) target: Key<[f64; 3]>,
+    pub(super) size: Key<String>,
 }
 
 /// Another world.
@@ -37,10 +53,9 @@ pub(super) struct CameraEntry {
 #[serde(deny_unknown_fields)]
 pub(super) struct WorldEntry {
     pub(super) image: Spanned<String>,
-    pub(super) spec: Option<Spanned<String>>,
-    #[serde(default)]
-    pub(super) centre: [f64; 3],
-    pub(super) proxy: Option<Spanned<String>>,
+    pub(super) spec: Key<String>,
+    pub(super) centre: Key<[f64; 3]>,
+    pub(super) proxy: Key<String>,
 }
 
 /// A material: one with a name and coefficients, or metallic-roughness.
@@ -48,23 +63,35 @@ pub(super) struct WorldEntry {
 #[serde(deny_unknown_fields)]
 pub(super) struct MaterialEntry {
     pub(super) kind: Option<Kind>,
-    pub(super) dc: Option<f64>,
-    pub(super) sc: Option<f64>,
-    pub(super) alpha: Option<f64>,
-    pub(super) ior: Option<Numbers>,
-    pub(super) absorption: Option<Numbers>,
-    pub(super) surfaces: Option<usize>,
-    pub(super) metallic: Option<f64>,
-    pub(super) roughness: Option<f64>,
-    pub(super) specular: Option<f64>,
+    pub(super) dc: Key<f64>,
+    pub(super) sc: Key<f64>,
+    pub(super) alpha: Key<f64>,
+    pub(super) ior: Key<Numbers>,
+    pub(super) absorption: Key<Numbers>,
+    pub(super) surfaces: Key<usize>,
+    /// Table of chrome, as of `--chrome`.
+    pub(super) chrome: Key<String>,
+    pub(super) metallic: Key<f64>,
+    pub(super) roughness: Key<f64>,
+    pub(super) specular: Key<f64>,
+    pub(super) color: Key<ColourText>,
+    pub(super) emissive: Key<ColourText>,
+    pub(super) texture: Key<PathBuf>,
+    pub(super) metal_texture: Key<PathBuf>,
+    pub(super) emissive_texture: Key<PathBuf>,
+    pub(super) normal_texture: Key<PathBuf>,
+    pub(super) normal_scale: Key<f64>,
+    pub(super) wrap: Key<WrapName>,
+}
+
+/// A light that is a point, for chrome.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LightEntry {
+    pub(super) yaw: Spanned<f64>,
+    pub(super) pitch: Spanned<f64>,
+    pub(super) power: Key<f64>,
     pub(super) color: Option<ColourText>,
-    pub(super) emissive: Option<ColourText>,
-    pub(super) texture: Option<Spanned<PathBuf>>,
-    pub(super) metal_texture: Option<Spanned<PathBuf>>,
-    pub(super) emissive_texture: Option<Spanned<PathBuf>>,
-    pub(super) normal_texture: Option<Spanned<PathBuf>>,
-    pub(super) normal_scale: Option<f64>,
-    pub(super) wrap: Option<WrapName>,
 }
 
 /// Name of a material's kind.
@@ -125,20 +152,18 @@ impl TryFrom<String> for ColourText {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ObjectEntry {
-    pub(super) name: Option<String>,
+    pub(super) name: Key<String>,
     pub(super) shape: Option<ShapeName>,
     /// A model's file.
-    pub(super) file: Option<Spanned<PathBuf>>,
+    pub(super) file: Key<PathBuf>,
     /// Angle in degrees, as of `--crease`.
-    pub(super) crease: Option<f64>,
-    pub(super) material: Option<Spanned<String>>,
-    pub(super) world: Option<Spanned<String>>,
-    #[serde(default)]
-    pub(super) translate: [f64; 3],
+    pub(super) crease: Key<f64>,
+    pub(super) material: Key<String>,
+    pub(super) world: Key<String>,
+    pub(super) translate: Key<[f64; 3]>,
     /// Yaw, pitch and roll, in degrees.
-    #[serde(default)]
-    pub(super) rotate: [f64; 3],
-    pub(super) scale: Option<f64>,
+    pub(super) rotate: Key<[f64; 3]>,
+    pub(super) scale: Key<f64>,
 }
 
 /// Name of a shape.

@@ -2,7 +2,6 @@
 
 mod albedo_table;
 mod beam;
-mod chrome;
 mod glass;
 mod maps;
 mod proxy;
@@ -12,7 +11,6 @@ mod surface;
 mod surroundings;
 
 pub(crate) use beam::Beam;
-pub use chrome::{Chrome, Highlight};
 pub use maps::LightMaps;
 pub use proxy::{Proxy, Walls};
 pub use sky::Sky;

@@ -3,49 +3,54 @@ use cosmorama::raster::Rgba;
 use glam::{DVec2, DVec3};
 
 use super::albedo_table::AlbedoTable;
-use crate::material::{Finish, Material, Paint};
+use crate::material::{Chrome, Finish, Material, Paint};
 use crate::ray::Normal;
 use crate::shape::{Chart, Wall};
 
 /// A material at a place, as the eye sees it: emissive + kd·D + ks·S, by colour.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Surface {
+pub(crate) struct Surface<'a> {
     /// Normal of the dents and bumps.
     pub(crate) normal: Normal,
     pub(super) diffuse: DVec3,
     pub(super) specular: DVec3,
     pub(super) emissive: DVec3,
-    pub(crate) gloss: Gloss,
+    pub(crate) gloss: Gloss<'a>,
 }
 
 /// Source of a surface's reflection.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Gloss {
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Gloss<'a> {
     /// A table of colours by elevation.
-    Chrome,
+    Chrome(&'a Chrome),
     /// The world, by a roughness α.
     World(f64),
 }
 
-impl Gloss {
+impl<'a> Gloss<'a> {
+    /// Returns whether it shows a table, and not the world.
+    pub(crate) fn is_chrome(self) -> bool {
+        matches!(self, Self::Chrome(_))
+    }
+
     /// Returns the angle by which it blurs the world, in radians: the lobe's α.
     pub(crate) fn blur(self) -> f64 {
         match self {
-            Self::Chrome => 0.0,
+            Self::Chrome(_) => 0.0,
             Self::World(alpha) => alpha,
         }
     }
 
     /// Returns what all of a material reflects; `None` if that differs from place to place.
-    pub(crate) fn of(material: &Material) -> Option<Self> {
-        if material.chrome {
-            return Some(Self::Chrome);
+    pub(crate) fn of(material: &'a Material) -> Option<Self> {
+        if let Some(chrome) = &material.chrome {
+            return Some(Self::Chrome(chrome));
         }
         material.alphas().filter(|[least, greatest]| least == greatest).map(|[alpha, _]| Self::World(alpha))
     }
 }
 
-impl Surface {
+impl<'a> Surface<'a> {
     /// Returns the part of light that it reflects, of the colour of which it reflects most.
     pub(crate) fn reflected(&self) -> f64 {
         self.specular.max_element()
@@ -63,14 +68,14 @@ impl Surface {
     }
 
     /// Returns a material where a ray meets it.
-    pub(super) fn of(wall: &Wall, material: &Material, albedo: Option<&AlbedoTable>) -> Self {
+    pub(super) fn of(wall: &Wall, material: &'a Material, albedo: Option<&AlbedoTable>) -> Self {
         let (Some(finish), Some(albedo)) = (&material.finish, albedo) else {
             return Self {
                 normal: wall.normal,
                 diffuse: DVec3::splat(material.diffuse),
                 specular: DVec3::splat(material.specular),
                 emissive: DVec3::ZERO,
-                gloss: if material.chrome { Gloss::Chrome } else { Gloss::World(material.alpha) },
+                gloss: material.chrome.as_ref().map_or(Gloss::World(material.alpha), Gloss::Chrome),
             };
         };
         let chart = wall.chart.as_ref();

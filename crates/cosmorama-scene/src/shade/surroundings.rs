@@ -6,7 +6,7 @@ use glam::{DMat3, DVec3, Vec3};
 
 use super::maps::LightMap;
 use super::rough::RoughLight;
-use super::{Beam, Chrome, Gloss, LightMaps, Proxy, Sky, Surface};
+use super::{Beam, Gloss, LightMaps, Proxy, Sky, Surface};
 use crate::error::SceneError;
 use crate::material::Material;
 use crate::ray::Ray;
@@ -27,7 +27,6 @@ pub struct Surroundings<'a> {
     pub(crate) filter: FilterSettings,
     /// Mean of the world's light, of all channels.
     pub(crate) mean: f64,
-    chrome: Chrome,
     proxy: Option<Proxy>,
     /// Rotation from the things to the world.
     turn: DMat3,
@@ -90,17 +89,10 @@ impl<'a> Surroundings<'a> {
             maps,
             sky,
             filter,
-            chrome: Chrome::earth_and_sky(),
             proxy: None,
             turn: DMat3::IDENTITY,
             occlusion: false,
         })
-    }
-
-    /// Returns the surroundings with another table for what is of chrome; otherwise that is [`Chrome::earth_and_sky`].
-    #[must_use]
-    pub fn with_chrome(self, chrome: Chrome) -> Self {
-        Self { chrome, ..self }
     }
 
     /// Returns the surroundings with walls that stand for a near world; otherwise it is far away.
@@ -183,7 +175,7 @@ impl<'a> Surroundings<'a> {
     }
 
     /// Returns a material where a ray meets it.
-    pub(crate) fn surface(&self, wall: &Wall, material: &Material) -> Surface {
+    pub(crate) fn surface<'m>(&self, wall: &Wall, material: &'m Material) -> Surface<'m> {
         Surface::of(wall, material, self.maps.albedo.as_ref())
     }
 
@@ -218,7 +210,7 @@ impl<'a> Surroundings<'a> {
     /// Returns what a surface reflects of a footprint in the world's frame.
     fn look(&self, gloss: Gloss, footprint: &Footprint, detail: Detail) -> Rgba {
         match gloss {
-            Gloss::Chrome => self.chrome.average(footprint),
+            Gloss::Chrome(chrome) => chrome.average(footprint),
             Gloss::World(alpha) => self.rough.average(alpha, footprint, || self.world(footprint, detail)),
         }
     }

@@ -33,8 +33,10 @@ impl SceneReader for Small {
 
 const SCENE: &str = "[camera]\nprojection = \"perspective:fov=40\"\neye = [0, 1, 5]\ntarget = [0, 0, 0]\nsize = \"64x48\"\n\n[world.sky]\n\
                      image = \"sky.png\"\nspec = \"equirect\"\nproxy = \"box:4,3,4\"\ncentre = [0, 1, 0]\n\n[material.gold]\nmetallic = 1\n\
-                     roughness = 0.25\ncolor = \"#ffcc66\"\n\n[material.wood]\ntexture = \"wood.png\"\n\n[[object]]\nshape = \"sphere\"\n\
-                     material = \"gold\"\nworld = \"sky\"\ntranslate = [1, 0, 0]\n\n[[object]]\nshape = \"sphere\"\nmaterial = \"wood\"\n";
+                     roughness = 0.25\ncolor = \"#ffcc66\"\n\n[material.wood]\ntexture = \"wood.png\"\n\n[material.evening]\nkind = \"chrome\"\nchrome = \"-90=black;0=white\"\n\n\
+                     [[light]]\nyaw = 30\npitch = 50\npower = 200\ncolor = \"1,0.5,0\"\n\n[[object]]\nshape = \"sphere\"\n\
+                     material = \"gold\"\nworld = \"sky\"\ntranslate = [1, 0, 0]\n\n[[object]]\nshape = \"sphere\"\nmaterial = \"wood\"\n\n\
+                     [[object]]\nname = \"shiny\"\nshape = \"sphere\"\nmaterial = \"evening\"\n";
 
 fn scene(text: &[u8]) -> bool {
     let Ok(text) = str::from_utf8(text) else { return false };
@@ -51,6 +53,7 @@ fn scene_files_are_refused_or_understood() {
         "[[object]]\n",
         "[material.a]\n",
         "[world.b]\n",
+        "[[light]]\n",
         "glass = true\n",
         "file = \"a.obj\"\n",
         "scale = ",

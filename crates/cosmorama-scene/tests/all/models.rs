@@ -3,9 +3,13 @@
 use std::path::PathBuf;
 
 use cosmorama::camera::PixelPoint;
-use cosmorama::filter::{Texture, Wrap};
+use cosmorama::filter::{FilterSettings, Texture, Wrap};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
-use cosmorama_scene::{Finish, Material, Model, ModelSettings, PictureKind, PictureReader, PictureSource, Shape};
+use cosmorama::world::World;
+use cosmorama_scene::{
+    Background, Camera, Finish, LightMaps, Material, Model, ModelSettings, Orthographic, PictureKind, PictureReader,
+    PictureSource, Place, Scene, Shape, Sky, Surroundings, picture,
+};
 
 pub(crate) const SETTINGS: ModelSettings =
     ModelSettings { crease: None, material: None, most: 1_000_000, placing: None };
@@ -83,7 +87,10 @@ fn faults_of_obj_files_name_the_line() {
         ("f a b c", "line 9: vertex 'a' is not a whole number"),
         ("v 1 2", "line 9: expected 3 numbers"),
         ("v 1 2 x", "line 9: expected a number, but found 'x'"),
-        ("v nan 0 0\nf 1 2 5", "corner 2 of triangle 0 is not a point"),
+        ("v nan 0 0\nf 1 2 5", "line 9: expected a number, but found 'nan'"),
+        ("vn 0 inf 0", "line 9: expected a number, but found 'inf'"),
+        ("vt 0 1e999", "line 9: expected a number, but found '1e999'"),
+        ("v 1e80 0 0\nf 1 2 5", "corner 2 of triangle 0 is not a point"),
         ("", "no triangle"),
     ];
     for (line, says) in cases {
@@ -94,6 +101,56 @@ fn faults_of_obj_files_name_the_line() {
     assert!(error.contains("nothing.obj"), "{error}");
     let error = Model::read("nothing.stl".as_ref(), &SETTINGS, &mut Files).unwrap_err().to_string();
     assert!(error.contains(".obj"), "{error}");
+}
+
+/// Part of a thing's shadow along z that is at a place of the plane z = 0.
+fn is_covered(model: &Model, x: f64, y: f64) -> bool {
+    let place = Place { eye: [x, y, 5.0].into(), target: [x, y, 0.0].into() };
+    let camera = Camera::Orthographic(Orthographic::new(place, 0.01, [1, 1]).unwrap());
+    let (world, light) = World::from_panorama(Image::filled(4, 2, Rgba::opaque(1.0, 1.0, 1.0))).unwrap();
+    let scene = Scene { objects: vec![model.object.clone()] };
+    let sky = Sky::new(&world, &light);
+    let maps = LightMaps::of(&scene, 0, sky).unwrap();
+    let surroundings = Surroundings::new(sky, &maps, FilterSettings::DEFAULT).unwrap();
+    let image = picture(&scene, &camera, &[surroundings], Background::Colour(Rgba::TRANSPARENT)).unwrap();
+    image.get(0, 0).alpha() > 0.5
+}
+
+#[test]
+fn polygons_that_bend_inward_are_what_they_look_like() {
+    const L: &str = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\n";
+    // A fan from the second corner would cover what the L leaves free.
+    for corners in ["1 2 3 4 5 6", "2 3 4 5 6 1", "6 5 4 3 2 1"] {
+        let model = File::new("l.obj", &format!("{L}f {corners}\n")).read().unwrap();
+        assert!(model.notes.is_empty(), "{:?}", model.notes);
+        for (x, y, is_there) in
+            [(0.5, 0.5, true), (1.7, 0.8, true), (0.8, 1.7, true), (1.3, 1.3, false), (1.7, 1.7, false)]
+        {
+            assert_eq!(is_covered(&model, x, y), is_there, "{corners}: {x}, {y}");
+        }
+    }
+    let crossed = File::new("bow.obj", &format!("{L}f 1 3 2 6 4\n")).read().unwrap();
+    assert!(crossed.notes.join(" ").contains("1 faces cross themselves"), "{:?}", crossed.notes);
+}
+
+#[test]
+fn numbers_of_gltf_that_are_none_are_named() {
+    let bytes: Vec<u8> =
+        [[0.0f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, f32::NAN, 1.0], [0.0, 0.0, 1.0], [0.0, 0.0, 1.0]]
+            .iter()
+            .flatten()
+            .flat_map(|number| number.to_le_bytes())
+            .collect();
+    let text = format!(
+        r#"{{"asset": {{"version": "2.0"}}, "scenes": [{{"nodes": [0]}}], "nodes": [{{"mesh": 0}}],
+        "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0, "NORMAL": 1}}}}]}}],
+        "buffers": [{{"byteLength": 72, "uri": "data:;base64,{}"}}], "bufferViews": [{{"buffer": 0, "byteLength": 72}}],
+        "accessors": [{{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}},
+        {{"bufferView": 0, "byteOffset": 36, "componentType": 5126, "count": 3, "type": "VEC3"}}]}}"#,
+        base64(&bytes)
+    );
+    let error = File::new("normals.gltf", &text).read().unwrap_err();
+    assert!(error.contains("normals.gltf: accessor 1 has normals of vertex 0 that are no numbers"), "{error}");
 }
 
 #[test]
@@ -216,6 +273,8 @@ fn faults_of_gltf_files_are_named() {
         (r#""byteLength": 52"#, r#""byteLength": 9000000000000"#, "memory allows"),
         ("NAME%2Ebin", "/dev/stdin", "buffer 0 is at '/dev/stdin'"),
         ("NAME%2Ebin", ".", "which is no file"),
+        (r#""version": "2.0""#, r#""version": "1.0""#, "it is of glTF 1.0; expected 2.0"),
+        (r#""version": "2.0""#, r#""version": "2.9", "minVersion": "2.9""#, "it is of glTF 2.9"),
     ];
     for (k, (from, to, says)) in cases.into_iter().enumerate() {
         let error = Gltf::new(&format!("fault{k}"), &SQUARES.replacen(from, to, 1)).file.read().unwrap_err();

@@ -1,7 +1,7 @@
 use std::str::FromStr;
 
 use cosmorama::raster::Rgba;
-use cosmorama_scene::{Finish, Material, Paint};
+use cosmorama_scene::{Chrome, Finish, Material, Paint};
 use cosmorama_spec::{Colour, nearest};
 
 /// Name of a material, or the numbers of one; `None` for those of a model's file.
@@ -25,7 +25,7 @@ impl MaterialName {
 
     /// Returns whether it is chrome.
     pub(crate) fn is_chrome(&self) -> bool {
-        self.0.as_ref().is_some_and(|material| material.chrome)
+        self.0.as_ref().is_some_and(|material| material.chrome.is_some())
     }
 }
 
@@ -38,7 +38,7 @@ impl FromStr for MaterialName {
             "matte" | "matt" | "diffuse" => Material::MATTE,
             "mixed" => Material::MIXED,
             "glass" => Material::GLASS,
-            "chrome" => Material::CHROME,
+            "chrome" => Material::chrome(Chrome::earth_and_sky()),
             "own" => return Ok(Self(None)),
             _ if text.contains('=') => Material::of(finish(text)?),
             _ => {

@@ -57,7 +57,7 @@ pub(crate) struct ShadeArgs {
     /// Make a model's normals smooth over edges up to this angle; 0: flat [default: the file's own, or 40]
     #[arg(long, value_name = "DEGREES", value_parser = crease, allow_negative_numbers = true, hide_short_help = true, help_heading = "Things")]
     pub(crate) crease: Option<Angle>,
-    /// Things, materials, other worlds and the camera in a file (docs/scenes.md)
+    /// Things, materials, lights, other worlds and the camera in a file (docs/scenes.md)
     #[arg(
         long,
         value_name = "FILE.toml",
@@ -161,8 +161,14 @@ pub(crate) struct ShadeArgs {
     pub(crate) from: Option<Spec>,
     /// ewa-pyramid (default), ewa, bilinear, point, reference
     ///
-    /// How what mirrors reflect is averaged.
-    #[arg(long, value_name = "FILTER", default_value = "ewa-pyramid", value_parser = listed::filter(), hide_possible_values = true, hide_default_value = true, help_heading = "World")]
+    /// How what mirrors reflect is averaged:
+    ///   ewa-pyramid  texels under an ellipse, of smaller copies if it is large
+    ///   ewa          all texels under the ellipse: sharper, for stills
+    ///   bilinear     the four nearest texels: fast, but flickers
+    ///   point        the nearest texel
+    ///   reference    many samples of the pixel, to judge others by
+    /// The other filters of convert go there, too (docs/filters.md).
+    #[arg(long, verbatim_doc_comment, value_name = "FILTER", default_value = "ewa-pyramid", value_parser = listed::filter(), hide_possible_values = true, hide_default_value = true, help_heading = "World")]
     pub(crate) reflect: FilterName,
     /// adaptive (default), mitchell, lanczos3, …
     #[arg(long, value_name = "NAME", default_value = "adaptive", value_parser = listed::kernel(), hide_possible_values = true, hide_default_value = true, hide_short_help = true, help_heading = "World")]
@@ -200,6 +206,14 @@ pub(crate) struct ShadeArgs {
     /// world (default), transparent or a colour
     #[arg(long, value_name = "COLOR", default_value = "world", hide_default_value = true, help_heading = "Picture")]
     pub(crate) background: BackgroundName,
+    /// A world behind the things, in place of the one that they stand under
+    ///
+    /// Named like WORLD; builtin:NAME, too. Both are seen by the same camera.
+    #[arg(long, value_name = "WORLD", value_hint = ValueHint::FilePath, value_parser = file::name(), conflicts_with = "background", hide_short_help = true, help_heading = "Picture")]
+    pub(crate) backdrop: Option<Name>,
+    /// The backdrop's projection [default: found]
+    #[arg(long, value_name = "SPEC", value_parser = listed::spec(), hide_possible_values = true, requires = "backdrop", hide_short_help = true, help_heading = "Picture")]
+    pub(crate) backdrop_from: Option<Spec>,
     /// As many pictures of a whole turn of the things, turn_####.png
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000), hide_short_help = true, help_heading = "Picture")]
     pub(crate) turntable: Option<u64>,

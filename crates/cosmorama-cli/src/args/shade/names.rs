@@ -4,7 +4,7 @@ use std::str::FromStr;
 use clap::ValueEnum;
 use cosmorama::lighting::{ColourTable, TableAngle};
 use cosmorama::raster::Rgba;
-use cosmorama::sphere::{Angle, Direction, Orientation};
+use cosmorama::sphere::Orientation;
 use cosmorama_scene::{Highlight, MODEL_EXTENSIONS, Walls};
 use cosmorama_spec::{Colour, Spec, SpecKind, colour_table_of_stops};
 
@@ -122,28 +122,17 @@ impl FromStr for ChromeTable {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct HighlightName(pub(crate) Highlight);
 
-/// Power of a highlight's lobe, unless given, and the greatest.
-const POWER: f64 = 300.0;
-const SHARPEST: f64 = 1e9;
-
 impl FromStr for HighlightName {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
         let numbers: Option<Vec<f64>> = text.split(':').map(|number| number.trim().parse().ok()).collect();
-        let (yaw, pitch, power) = match numbers.as_deref() {
-            Some([yaw, pitch]) => (*yaw, *pitch, POWER),
-            Some([yaw, pitch, power]) => (*yaw, *pitch, *power),
+        let (angles, power) = match numbers.as_deref() {
+            Some([yaw, pitch]) => ([*yaw, *pitch], Highlight::USUAL_POWER),
+            Some([yaw, pitch, power]) => ([*yaw, *pitch], *power),
             _ => return Err("expected YAW:PITCH in degrees, or YAW:PITCH:POWER, as in 30:50:300".to_owned()),
         };
-        let is_angle = yaw.is_finite() && (-90.0..=90.0).contains(&pitch);
-        if !(is_angle && (1.0..=SHARPEST).contains(&power)) {
-            return Err("expected a pitch from -90 to 90 and a power from 1".to_owned());
-        }
-        let angles = [yaw, pitch].map(Angle::from_degrees);
-        let direction =
-            Orientation::from_yaw_pitch_roll(angles[0], angles[1], Angle::from_degrees(0.0)).to_world(Direction::FRONT);
-        Ok(Self(Highlight { direction, colour: [1.0; 3], power }))
+        Highlight::new(angles, power).map(Self).map_err(|error| error.to_string())
     }
 }
 

@@ -1,5 +1,6 @@
 //! Things under a world.
 
+mod behind;
 mod camera;
 mod memory;
 mod model;
@@ -18,17 +19,18 @@ use anyhow::Result;
 use cosmorama::filter::FilterSettings;
 use cosmorama::raster::{Image, Rgba};
 use cosmorama_convert::{MemoryBudget, check_apart, threads};
-use cosmorama_scene::{Background, LightMaps, SceneError, Sky, Surroundings, backdrop, picture, picture_over};
+use cosmorama_scene::{LightMaps, SceneError, Sky, Surroundings, picture_over};
 use cpu_time::ProcessTime;
 use serde_json::json;
 
+use self::behind::Behind;
 use self::camera::{Shot, shots};
 use self::output::Output;
 use self::things::Things;
 use self::turntable::frames;
 use self::worlds::{files, read, worlds};
 use super::prepare_output;
-use crate::args::{BackgroundName, OcclusionName, ShadeArgs};
+use crate::args::{OcclusionName, ShadeArgs};
 use crate::console::Console;
 use crate::failure::usage;
 
@@ -60,27 +62,23 @@ pub(super) fn run(args: ShadeArgs, console: &mut Console) -> Result<ExitCode> {
     let surroundings = |number: usize| {
         let made = Surroundings::new(skies[number], &maps[number], filter).map_err(wrong)?;
         let is_hidden = args.occlusion == OcclusionName::Ambient;
-        Ok(made.with_chrome(things.chrome.clone()).with_proxy(worlds[number].proxy).with_occlusion(is_hidden))
+        Ok(made.with_proxy(worlds[number].proxy).with_occlusion(is_hidden))
     };
     let mut surroundings: Vec<Surroundings> =
         pool.install(|| (0..worlds.len()).map(surroundings).collect::<Result<_>>())?;
-    let background = match args.background {
-        BackgroundName::World => Background::World,
-        BackgroundName::Colour(colour) => Background::Colour(colour),
-    };
+    let behind = Behind::new(&args, &worlds);
     // Things turn, and what is behind them stays.
-    let behind = |shot: &Shot| backdrop(&shot.camera, &surroundings[0], background);
-    let behind = || pool.install(|| shots.iter().map(behind).collect::<Vec<Image<Rgba>>>());
-    let behind = (frames.len() > 1).then(behind);
+    let all = || shots.iter().map(|shot| behind.picture(shot, &surroundings)).collect::<Result<Vec<Image<Rgba>>>>();
+    let kept = (frames.len() > 1).then(|| pool.install(all)).transpose()?;
     let (mut shaded, mut written) = (clock.lap(), 0.0);
     for frame in &frames {
         surroundings.iter_mut().for_each(|world| world.turn_things(frame.turn));
         let made = |k: usize, shot: &Shot| {
-            let made = match &behind {
-                Some(behind) => picture_over(&things.scene, &shot.camera, &surroundings, behind[k].clone()),
-                None => picture(&things.scene, &shot.camera, &surroundings, background),
+            let over = match &kept {
+                Some(kept) => kept[k].clone(),
+                None => behind.picture(shot, &surroundings)?,
             };
-            made.map_err(wrong)
+            picture_over(&things.scene, &shot.camera, &surroundings, over).map_err(wrong)
         };
         let image = pool.install(|| assembled(&shots, made))?;
         shaded += clock.lap();

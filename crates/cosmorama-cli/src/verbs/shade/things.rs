@@ -10,8 +10,8 @@ use cosmorama::raster::{Image, Rgba, Transfer};
 use cosmorama_convert::{MemoryBudget, real_path};
 use cosmorama_io::{Limits, read, read_from};
 use cosmorama_scene::{
-    Chrome, Finish, Glass, Material, MaterialError, Model, ModelCamera, ModelSettings, NamedWorld, Object, Paint,
-    PictureKind, PictureReader, PictureSource, Refraction, Scene, SceneFile, SceneReader, Sphere,
+    Chrome, Finish, Glass, Highlight, Material, MaterialError, Model, ModelCamera, ModelSettings, NamedWorld, Object,
+    Paint, PictureKind, PictureReader, PictureSource, Refraction, Scene, SceneFile, SceneReader, Sphere,
 };
 
 use super::model::model;
@@ -22,7 +22,6 @@ use crate::failure::usage;
 /// Things under a world, as they were asked for.
 pub(super) struct Things {
     pub(super) scene: Scene,
-    pub(super) chrome: Chrome,
     /// The scene file, if they come from one.
     pub(super) file: Option<SceneFile>,
     /// Cameras that models' files have.
@@ -39,13 +38,14 @@ impl Things {
         let budget = MemoryBudget::new(args.limits.memory);
         let mut reader = Reader { console, budget, files: HashSet::new(), cameras: Vec::new() };
         let file = args.scene.as_deref().map(|path| scene_file(path, &mut reader)).transpose()?;
-        let scene = match &file {
+        let mut scene = match &file {
             Some(file) => file.scene(&mut reader)?,
             None => scene(args, &mut reader)?,
         };
         let worlds = file.as_ref().map_or_else(|| Ok(Vec::new()), SceneFile::worlds)?;
         let Reader { files, cameras, .. } = reader;
-        Ok(Self { chrome: chrome(args, &scene)?, scene, file, cameras, worlds, files })
+        give_chrome(args, &mut scene)?;
+        Ok(Self { scene, file, cameras, worlds, files })
     }
 }
 
@@ -204,13 +204,15 @@ fn option_of(error: &MaterialError) -> &'static str {
         MaterialError::Index(_) => "--ior",
         MaterialError::Absorption(_) => "--absorption",
         MaterialError::Surfaces(_) => "--surfaces",
+        MaterialError::NotByElevation => "--chrome",
         MaterialError::Part(_) | MaterialError::Colour(_) | MaterialError::NormalScale(_) => "--material",
     }
 }
 
-/// Returns the table of chrome that was asked for; its options are for nothing else.
-fn chrome(args: &ShadeArgs, scene: &Scene) -> Result<Chrome> {
-    if !scene.parts().any(|part| part.material.chrome) {
+/// Gives what is of chrome the table and the lights that options ask for, which are for nothing else. They go before those of a
+/// scene file.
+fn give_chrome(args: &ShadeArgs, scene: &mut Scene) -> Result<()> {
+    if !scene.parts().any(|part| part.material.chrome.is_some()) {
         let message = match args.scene {
             Some(_) => {
                 "--chrome and --highlight are for chrome, and nothing in the scene file is of it; leave them out"
@@ -218,16 +220,19 @@ fn chrome(args: &ShadeArgs, scene: &Scene) -> Result<Chrome> {
             None => "--chrome and --highlight are for chrome; add --material chrome",
         };
         let is_given = args.chrome.is_some() || !args.highlight.is_empty();
-        return if is_given { Err(usage(message)) } else { Ok(Chrome::earth_and_sky()) };
+        return if is_given { Err(usage(message)) } else { Ok(()) };
     }
     if args.alpha.is_some() || matches!(args.object, ObjectName::Spheres(_)) {
         return Err(usage("chrome is one smooth sphere: leave out --alpha and spheres:N"));
     }
-    let highlights = args.highlight.iter().map(|name| name.0).collect();
-    match &args.chrome {
-        Some(table) => Chrome::new(&table.0, highlights).map_err(|error| usage(format!("--chrome: {error}"))),
-        None => Ok(Chrome::earth_and_sky().with_highlights(highlights)),
+    let table = args.chrome.as_ref().map(|table| Chrome::new(&table.0, Vec::new()));
+    let table = table.transpose().map_err(|error| usage(format!("--chrome: {error}")))?;
+    let lights: Arc<[Highlight]> = args.highlight.iter().map(|name| name.0).collect();
+    for chrome in scene.parts_mut().filter_map(|part| part.material.chrome.as_mut()) {
+        let lights = if lights.is_empty() { chrome.highlights() } else { &lights };
+        *chrome = table.as_ref().unwrap_or(chrome).clone().with_highlights(Arc::clone(lights));
     }
+    Ok(())
 }
 
 /// Returns the glass that was asked for; options of glass are for nothing else.

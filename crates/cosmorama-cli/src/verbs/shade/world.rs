@@ -9,7 +9,7 @@ use cosmorama::world::World;
 use cosmorama_builtin::BuiltinWorld;
 use cosmorama_convert::{Builtin, Conversion, GeometrySettings, Name, Radiance, WorldLight};
 use cosmorama_io::FrameList;
-use cosmorama_spec::Spec;
+use cosmorama_spec::{Missing, Spec};
 
 use crate::args::{BackgroundName, ShadeArgs};
 use crate::console::Console;
@@ -30,16 +30,30 @@ const NONE: &str = "none";
 const EDGE: usize = 1024;
 
 /// A world as it was asked for.
+#[derive(Clone)]
 pub(super) struct Asked<'a> {
     pub(super) name: &'a Name,
     pub(super) from: Option<Spec>,
     pub(super) frames: Option<FrameList>,
+    pub(super) missing: Missing,
+}
+
+impl<'a> Asked<'a> {
+    /// Asks for a world beside the one that things stand under.
+    pub(super) fn of(name: &'a Name, from: Option<Spec>, args: &ShadeArgs) -> Self {
+        Self { name, from, frames: None, missing: args.missing }
+    }
+
+    /// Returns whether no world is asked for.
+    pub(super) fn is_none(&self) -> bool {
+        **self.name == *NONE
+    }
 }
 
 impl WorldInput {
     /// Finds the world's files and reads their headers.
     pub(super) fn check(asked: Asked, args: &ShadeArgs, console: &mut Console) -> Result<Self> {
-        if **asked.name == *NONE {
+        if asked.is_none() {
             return without(args);
         }
         match Builtin::named(asked.name)? {
@@ -60,7 +74,7 @@ impl WorldInput {
             input: kept.input(asked.name)?,
             geometry: GeometrySettings { from: asked.from, ..GeometrySettings::default() },
             transfer: args.transfer.clone(),
-            missing: args.missing,
+            missing: asked.missing,
             frames: asked.frames,
             limits: args.limits.clone().into(),
             ..Conversion::default()
@@ -100,8 +114,10 @@ fn without(args: &ShadeArgs) -> Result<WorldInput> {
     if !args.material.is_chrome() || args.dc.unwrap_or(0.0) > 0.0 {
         return Err(usage("without a world there is only chrome: name a world, or give --material chrome and no --dc"));
     }
-    if args.background == BackgroundName::World {
-        return Err(usage("without a world there is no background; add --background black or transparent"));
+    if args.background == BackgroundName::World && args.backdrop.is_none() {
+        return Err(usage(
+            "without a world there is no background; add --background black, transparent or a --backdrop",
+        ));
     }
     if args.from.is_some() || args.frames.is_some() {
         return Err(usage("--from and --frames are for a world, and there is none; leave them out"));

@@ -36,6 +36,7 @@ pub(super) fn read(
     check_bytes(&bytes, settings)?;
     let Gltf { document, blob } =
         Gltf::from_slice_without_validation(&bytes).map_err(|error| ModelFault::Format(error.to_string()))?;
+    check_version(&document)?;
     let is_unknown = |extension: &&str| !SUPPORTED.contains(extension);
     let required: Vec<String> = document.extensions_required().filter(is_unknown).map(str::to_owned).collect();
     if !required.is_empty() {
@@ -97,6 +98,15 @@ fn check_bytes(bytes: &[u8], settings: &ModelSettings) -> Result<(), ModelFault>
     let json = if is_binary { number(HEADER as usize).unwrap_or(0).into() } else { bytes.len() as u64 };
     let most = settings.most_bytes() / PIECES;
     if json > most { Err(ModelFault::TooLong { bytes: json, most }) } else { Ok(()) }
+}
+
+/// Checks that the file is of glTF 2: others have other meanings.
+fn check_version(document: &Document) -> Result<(), ModelFault> {
+    let asset = &document.as_json().asset;
+    let wanted = asset.min_version.as_ref().unwrap_or(&asset.version);
+    let is_known =
+        asset.version.split('.').next() == Some("2") && asset.min_version.as_ref().is_none_or(|least| least == "2.0");
+    if is_known { Ok(()) } else { Err(ModelFault::Version(wanted.clone())) }
 }
 
 /// Checks that all that the file's pieces name is there. Rules of other formats of vertices are not those of quantised ones.

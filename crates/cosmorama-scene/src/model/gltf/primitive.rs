@@ -78,7 +78,12 @@ fn attribute<const N: usize>(
         let why = format!("has {} {name} for {count} vertices", accessor.count());
         return Err(ModelFault::Piece { piece: format!("accessor {}", accessor.index()), why });
     }
-    numbers(&accessor, buffers).map(Some)
+    let all = numbers(&accessor, buffers)?;
+    if let Some(vertex) = all.iter().position(|numbers| !numbers.iter().all(|number| number.is_finite())) {
+        let why = format!("has {name} of vertex {vertex} that are no numbers");
+        return Err(ModelFault::Piece { piece: format!("accessor {}", accessor.index()), why });
+    }
+    Ok(Some(all))
 }
 
 fn mapped<T, U>(values: Vec<T>, map: impl Fn(T) -> U) -> Vec<U> {

@@ -1,20 +1,22 @@
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::Arc;
 
 use cosmorama::camera::Footprint;
 use cosmorama::lighting::{ColourTable, TableAngle};
 use cosmorama::raster::Rgba;
 use cosmorama::sphere::{Angle, Direction, Orientation};
 use glam::DVec3;
+use thiserror::Error;
 
-use crate::error::SceneError;
+use super::MaterialError;
 
 /// Cheap chrome: a table of colours by elevation, averaged over what a pixel reflects by sums made beforehand, and lights
-/// that are points (Greene 1986, section 8). There is no world to filter.
+/// that are points (Greene 1986, section 8). There is no world to filter. Copies share the table and the lights.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chrome {
     /// Colours from [`FIRST`] on in equal steps, with the sums over them.
-    entries: Vec<Entry>,
-    highlights: Vec<Highlight>,
+    entries: Arc<[Entry]>,
+    highlights: Arc<[Highlight]>,
 }
 
 /// A light that is a point, as a shiny surface shows it.
@@ -26,6 +28,20 @@ pub struct Highlight {
     pub colour: [f64; 3],
     /// Sharpness: the power of Phong's lobe.
     pub power: f64,
+}
+
+/// Reason why there is no such light.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum HighlightError {
+    /// The yaw is no number.
+    #[error("a yaw of {0} is none; expected degrees")]
+    Yaw(f64),
+    /// The pitch is beyond zenith or nadir.
+    #[error("a pitch of {0} is outside -90 to 90 degrees")]
+    Pitch(f64),
+    /// The power is out of range.
+    #[error("a power of {0} is outside 1 to {most}", most = Highlight::SHARPEST)]
+    Power(f64),
 }
 
 /// The table where an entry begins: its colour, and the sums up to there of colours and of these sums.
@@ -52,9 +68,9 @@ impl Chrome {
     ///
     /// # Errors
     /// When the table goes by azimuth.
-    pub fn new(table: &ColourTable, highlights: Vec<Highlight>) -> Result<Self, SceneError> {
+    pub fn new(table: &ColourTable, highlights: Vec<Highlight>) -> Result<Self, MaterialError> {
         if table.angle() != TableAngle::Elevation {
-            return Err(SceneError::NotByElevation);
+            return Err(MaterialError::NotByElevation);
         }
         let mut entries = Vec::with_capacity(ENTRIES);
         let mut entry = Entry { colour: colour_at(table, FIRST), ..Entry::default() };
@@ -65,7 +81,7 @@ impl Chrome {
             entry = Entry { colour, ..after(&entry, colour, 1.0) };
             entries.push(entry);
         }
-        Ok(Self { entries, highlights })
+        Ok(Self { entries: entries.into(), highlights: highlights.into() })
     }
 
     /// Returns a gradation from earth to sky, bright at the horizon, without highlights.
@@ -85,8 +101,13 @@ impl Chrome {
 
     /// Returns the chrome with lights.
     #[must_use]
-    pub fn with_highlights(self, highlights: Vec<Highlight>) -> Self {
-        Self { highlights, ..self }
+    pub fn with_highlights(self, highlights: impl Into<Arc<[Highlight]>>) -> Self {
+        Self { highlights: highlights.into(), ..self }
+    }
+
+    /// Returns its lights.
+    pub fn highlights(&self) -> &Arc<[Highlight]> {
+        &self.highlights
     }
 
     /// Averages the table over a footprint, and adds the lights.
@@ -134,6 +155,31 @@ fn colour_at(table: &ColourTable, elevation: f64) -> DVec3 {
 }
 
 impl Highlight {
+    /// Power of a light of which none is said.
+    pub const USUAL_POWER: f64 = 300.0;
+
+    /// Greatest power.
+    pub const SHARPEST: f64 = 1e9;
+
+    /// Returns a white light at a yaw and a pitch, in degrees.
+    ///
+    /// # Errors
+    /// When a number is out of range.
+    pub fn new([yaw, pitch]: [f64; 2], power: f64) -> Result<Self, HighlightError> {
+        if !yaw.is_finite() {
+            return Err(HighlightError::Yaw(yaw));
+        }
+        if !(-90.0..=90.0).contains(&pitch) {
+            return Err(HighlightError::Pitch(pitch));
+        }
+        if !(1.0..=Self::SHARPEST).contains(&power) {
+            return Err(HighlightError::Power(power));
+        }
+        let [yaw, pitch] = [yaw, pitch].map(Angle::from_degrees);
+        let turn = Orientation::from_yaw_pitch_roll(yaw, pitch, Angle::ZERO);
+        Ok(Self { direction: turn.to_world(Direction::FRONT), colour: [1.0; 3], power })
+    }
+
     /// Returns the highlight in a footprint: a lobe that the footprint widens, and so darkens.
     fn seen(&self, footprint: &Footprint) -> DVec3 {
         let [dx, dy] = [footprint.jacobian.dx, footprint.jacobian.dy].map(|side| side.length_squared());
@@ -229,9 +275,18 @@ mod tests {
     }
 
     #[test]
+    fn lights_are_where_yaw_and_pitch_say() {
+        let right = Highlight::new([90.0, 0.0], 10.0).unwrap();
+        assert!((right.direction.vector() - DVec3::X).length() < 1e-12, "{right:?}");
+        assert_eq!(Highlight::new([0.0, 91.0], 10.0), Err(HighlightError::Pitch(91.0)));
+        assert_eq!(Highlight::new([0.0, 0.0], 0.5), Err(HighlightError::Power(0.5)));
+        assert!(Highlight::new([f64::NAN, 0.0], 10.0).is_err());
+    }
+
+    #[test]
     fn tables_by_azimuth_are_refused() {
         let stops = vec![(Angle::ZERO, [0.5; 3])];
         let by_azimuth = ColourTable::new((TableAngle::Azimuth, Orientation::IDENTITY), stops).unwrap();
-        assert_eq!(Chrome::new(&by_azimuth, Vec::new()), Err(SceneError::NotByElevation));
+        assert_eq!(Chrome::new(&by_azimuth, Vec::new()), Err(MaterialError::NotByElevation));
     }
 }
