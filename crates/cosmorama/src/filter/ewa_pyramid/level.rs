@@ -6,7 +6,8 @@ use crate::camera::{Footprint, PixelPoint};
 use crate::filter::Kernel;
 use crate::filter::gather::ellipse::semi_axes;
 use crate::filter::gather::{is_regular, reach, texels_of};
-use crate::projection::Projection;
+use crate::projection::{Projection, ProjectionKind};
+use crate::sphere::Direction;
 use crate::world::{Source, World};
 
 /// Least number of texels on the finer of two levels within the kernel's unit, along its minor axis. The greatest
@@ -51,8 +52,18 @@ pub(crate) struct LevelRule {
     kernel: Kernel,
     /// Geometry of the views: for each view, its levels from the finest on.
     views: Vec<Vec<Source>>,
-    /// Greatest number of texels in a steradian of each view; infinite where texels converge.
-    densities: Vec<f64>,
+    densities: Vec<Density>,
+}
+
+/// Texels in a steradian of a view.
+#[derive(Clone, Copy, Debug)]
+enum Density {
+    /// At most so many.
+    Bounded(f64),
+    /// In rows of one latitude, whose texels are equally far apart in longitude: so many at the equator.
+    Rows(f64),
+    /// Any number: texels converge.
+    Unbounded,
 }
 
 /// Conditions that a level must meet.
@@ -69,7 +80,11 @@ impl LevelRule {
     pub(crate) fn new(world: &World, kernel: &Kernel) -> Self {
         let levels = |source: &Source| std::iter::successors(Some(source.clone()), Source::coarser).collect();
         let views = world.sources().iter();
-        Self { kernel: *kernel, views: views.clone().map(levels).collect(), densities: views.map(density).collect() }
+        Self {
+            kernel: *kernel,
+            views: views.clone().map(levels).collect(),
+            densities: views.map(Density::of).collect(),
+        }
     }
 
     /// Returns the level for a footprint that `view` shows, or that lies beside all views. `None` where no view is
@@ -121,7 +136,8 @@ impl LevelRule {
         let levels = &self.views[view];
         let first = (from.max(0.0) as usize).min(levels.len() - 1);
         let radius = beside + reach(&self.kernel, footprint, levels[first].texel_pitch, self.kernel.floor);
-        let around = PI * radius * radius * self.densities[view] * 0.25f64.powi(first as i32);
+        let density = self.densities[view].within(&levels[0], footprint.direction, radius);
+        let around = PI * radius * radius * density * 0.25f64.powi(first as i32);
         let all = levels[first].view.width() * levels[first].view.height();
         if around.min(all as f64) < 0.5 * MOST_ON_LEVEL {
             // Nothing needs to be measured.
@@ -145,16 +161,33 @@ impl LevelRule {
     }
 }
 
-/// Returns the greatest number of texels in a steradian of a source; infinite where texels converge.
-fn density(source: &Source) -> f64 {
-    const STEPS: usize = 32;
-    if source.period.is_some() || !source.has_bounded_texels() {
-        return f64::INFINITY;
+impl Density {
+    fn of(source: &Source) -> Self {
+        const STEPS: usize = 32;
+        let view = &source.view;
+        if matches!(view.projection, ProjectionKind::Equirectangular(_)) {
+            let step = view.grid.step();
+            return Self::Rows((step.x * step.y).abs().recip());
+        }
+        if source.period.is_some() || !source.has_bounded_texels() {
+            return Self::Unbounded;
+        }
+        let at = |size: usize, step: usize| size as f64 * step as f64 / STEPS as f64;
+        let points = (0..=STEPS).flat_map(|j| (0..=STEPS).map(move |i| (i, j)));
+        let point = |(i, j)| PixelPoint::new(at(view.width(), i), at(view.height(), j));
+        let least = points.filter_map(|at| view.solid_angle(point(at))).fold(f64::INFINITY, f64::min);
+        Self::Bounded(least.recip())
     }
-    let at = |size: usize, step: usize| size as f64 * step as f64 / STEPS as f64;
-    let points = (0..=STEPS).flat_map(|j| (0..=STEPS).map(move |i| (i, j)));
-    let point = |(i, j)| PixelPoint::new(at(source.view.width(), i), at(source.view.height(), j));
-    points.filter_map(|at| source.view.solid_angle(point(at))).fold(f64::INFINITY, f64::min).recip()
+
+    /// Returns the greatest number of texels in a steradian within `radius` radians of a direction; infinite at a pole.
+    fn within(self, source: &Source, direction: Direction, radius: f64) -> f64 {
+        match self {
+            Self::Bounded(most) => most,
+            // The margin is the cosine of the latitude, which falls by no more than the angle.
+            Self::Rows(equator) => equator / (source.view.margin(direction) - radius).max(0.0),
+            Self::Unbounded => f64::INFINITY,
+        }
+    }
 }
 
 /// Returns the larger side of a pixel as an angle, in radians.
