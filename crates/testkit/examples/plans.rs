@@ -1,10 +1,13 @@
 //! What planned frames and stills cost, for `benches/speed`, which makes tables of what this prints.
 //!
 //! `cargo run --release -p testkit --example plans -- threads SIZE` gives seconds and CPU-seconds on one thread and on two of 8 bits,
-//! `-- sizes SIZE…` CPU-nanoseconds a pixel of domes of these sizes, and `-- turns SIZE` CPU-seconds of a frame on one thread for each
-//! line that it reads, `8 bits` or `floats`, so that other programs can take turns with it. The domes are [`testkit::Dome`]'s.
+//! `-- sizes SIZE…` CPU-nanoseconds a pixel of domes of these sizes, and `-- turns SIZE [POSE]` CPU-seconds of a frame on one thread
+//! for each line that it reads, `8 bits` or `floats` by plan or `still`, so that other programs can take turns with it. Asked for
+//! `bytes`, it tells those of the plan of 8 bits. The domes are [`testkit::Dome`]'s, upright, or with `general` tilted and turned;
+//! with `view` it is a view of 1920 × 1080 from the dome's faces.
 #![allow(clippy::print_stdout, reason = "a program that says what it measures")]
 
+use std::cell::LazyCell;
 use std::io::BufRead;
 use std::sync::Mutex;
 use std::time::Instant;
@@ -13,7 +16,7 @@ use cosmorama::raster::{Image, Rgba};
 use cosmorama::render::{Arithmetic, Plan};
 use cpu_time::ProcessTime;
 use rayon::{ThreadPool, ThreadPoolBuilder};
-use testkit::Dome;
+use testkit::{Dome, perspective, turned};
 
 /// How often two pools are measured, by turns.
 const ROUNDS: usize = 9;
@@ -29,8 +32,10 @@ fn main() {
     match arguments.split_first() {
         Some((what, rest)) if what == "threads" => sizes(rest).into_iter().for_each(threads),
         Some((what, rest)) if what == "sizes" => sizes(rest).into_iter().for_each(size),
-        Some((what, rest)) if what == "turns" => sizes(rest).into_iter().for_each(turns),
-        _ => println!("threads SIZE, sizes SIZE… or turns SIZE?"),
+        Some((what, [size, pose @ ..])) if what == "turns" => {
+            turns(Dome::new(size.parse().expect("pixels across")), pose.first().map(String::as_str));
+        }
+        _ => println!("threads SIZE, sizes SIZE… or turns SIZE [general|view]?"),
     }
 }
 
@@ -80,22 +85,41 @@ fn still(dome: &Dome) {
 }
 
 /// A line of CPU-seconds for each that is read, after one that says that there will be.
-fn turns(size: usize) {
-    let dome = Dome::new(size);
-    let texels: Vec<Rgba> = (0..dome.world.texel_count()).map(|texel| dome.light.rgba(texel)).collect();
-    let (plan, floats) = (
-        dome.resampler().plan(Arithmetic::Fixed).expect("a plan"),
-        dome.resampler().plan(Arithmetic::Float).expect("a plan"),
-    );
-    let (frames, image) = (Frames::new(&dome, &plan), Mutex::new(floats.apply(&texels)));
+fn turns(mut dome: Dome, pose: Option<&str>) {
+    match pose {
+        None => {}
+        // A tilt of 20°, a yaw of 33° and a roll of 7°.
+        Some("general") => dome.target.orientation = turned([33.0, 70.0, 7.0]),
+        Some("view") => dome.target = perspective(1920, 1080, 50.0, 33.0, 20.0, 7.0),
+        Some(other) => panic!("general or view, not {other}"),
+    }
+    let plan = LazyCell::new(|| dome.resampler().plan(Arithmetic::Fixed).expect("a plan"));
+    let frames = LazyCell::new(|| Frames::new(&dome, &plan));
+    let floats = LazyCell::new(|| {
+        let texels: Vec<Rgba> = (0..dome.world.texel_count()).map(|texel| dome.light.rgba(texel)).collect();
+        let plan = dome.resampler().plan(Arithmetic::Float).expect("a plan");
+        let image = Mutex::new(plan.apply(&texels));
+        (texels, plan, image)
+    });
     let pool = ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
-    let of_floats = || floats.apply_into(&texels, Rgba::BLACK, &mut image.lock().expect("nobody fails"));
     println!("ready");
     for line in std::io::stdin().lock().lines() {
         let (cost, ()) = match line.expect("lines of text").as_str() {
-            "8 bits" => cost(|| pool.install(|| frames.next())),
-            "floats" => cost(|| pool.install(of_floats)),
-            other => panic!("8 bits or floats, not {other}"),
+            "8 bits" => {
+                let frames = &*frames;
+                cost(|| pool.install(|| frames.next()))
+            }
+            "floats" => {
+                let (texels, plan, image) = &*floats;
+                let work = || plan.apply_into(texels, Rgba::BLACK, &mut image.lock().expect("nobody fails"));
+                cost(|| pool.install(work))
+            }
+            "still" => cost(|| pool.install(|| still(&dome))),
+            "bytes" => {
+                println!("{}", plan.bytes());
+                continue;
+            }
+            other => panic!("8 bits, floats, still or bytes, not {other}"),
         };
         println!("{}", cost.cpu);
     }

@@ -11,6 +11,7 @@ pub(crate) mod encode_u8;
 pub(crate) mod patch_texels;
 pub(crate) mod quantize;
 pub(crate) mod turned;
+pub(crate) mod unmirrored;
 pub(crate) mod weights;
 pub(crate) mod window;
 
@@ -59,6 +60,18 @@ impl WindowArithmetic for FixedArithmetic<'_> {
         light: &mut [[i32; 4]],
     ) -> usize {
         let shape = window.header().shape();
+        if N == 1 && R == 0 && (shape as usize) < SMALL.len() {
+            let (average, length) = match shape {
+                0 => window.unmirrored::<4, 4, 0>(),
+                1 => window.unmirrored::<4, 4, 1>(),
+                2 => window.unmirrored::<4, 5, 1>(),
+                3 => window.unmirrored::<6, 4, 0>(),
+                4 => window.unmirrored::<6, 4, 1>(),
+                _ => window.unmirrored::<6, 5, 1>(),
+            };
+            light[0] = average;
+            return length;
+        }
         if (shape as usize) < SMALL.len() {
             patch.hold::<S, N, R, TURNED>(window.simd, window.texels, window.group, window.first);
         }

@@ -6,8 +6,9 @@ use crate::render::batch::window::Windows;
 use crate::render::plan::window_format::{COLUMNS_UNDER, Format, Header, Place, ROWS_UNDER, Shape, SmallShapes};
 use crate::render::scan::tile::SIDE;
 
-/// Format of weights as integers, row by row, with the weights of two neighbouring texels in each number. In a large
-/// window, texels under the pixel are marked pair by pair ([`mark`]).
+/// Format of weights as integers, with the weights of two neighbouring texels in each number: row by row in a large
+/// window, in the order of [`weight_index`] in a small one. In a large window, texels under the pixel are marked pair
+/// by pair ([`mark`]).
 #[derive(Clone, Debug, Default)]
 pub(crate) struct FixedFormat(Rounded);
 
@@ -29,6 +30,20 @@ const MARKS: u32 = {
     let pairs = (1 << (ROWS_UNDER * PAIRS_UNDER)) - 1;
     pairs << 16 | pairs
 };
+
+/// Returns the index of a pair's weights in a small window with so many pairs a row: the first two pairs of the first
+/// four rows, row by row, then their third ones, then the fifth row. So the weights of two rows, and of four third
+/// pairs, are read at once.
+#[inline(always)]
+pub(crate) const fn weight_index(pairs: usize, row: usize, pair: usize) -> usize {
+    if row == HIGHEST - 1 {
+        (HIGHEST - 1) * pairs + pair
+    } else if pair < PAIRS_UNDER {
+        PAIRS_UNDER * row + pair
+    } else {
+        PAIRS_UNDER * (HIGHEST - 1) + row
+    }
+}
 
 /// Returns the number of bits by which the weights of a window are scaled.
 #[inline(always)]
@@ -118,9 +133,13 @@ impl FixedFormat {
         numbers.extend_from_slice(&[0; MOST]);
         let room: &mut [u32; MOST] = numbers[length..].first_chunk_mut().expect("there is as much room");
         room[0] = header.0;
-        for (row, weights) in rounded.small_pairs(place.lane, origin).into_iter().enumerate() {
-            room[1 + pairs.min(WIDEST) * row..][..weights.len()].copy_from_slice(&weights);
+        let rows = rounded.small_pairs(place.lane, origin);
+        for (row, weights) in rows[..HIGHEST - 1].iter().enumerate() {
+            room[1 + weight_index(pairs, row, 0)..][..2].copy_from_slice(&weights[..2]);
+            // Where there is no third pair, the last row comes over it.
+            room[1 + weight_index(pairs, row, 2)] = weights[2];
         }
+        room[1 + weight_index(pairs.min(WIDEST), HIGHEST - 1, 0)..][..SIDE / 2].copy_from_slice(&rows[HIGHEST - 1]);
         numbers.truncate(length + 1 + pairs * height);
     }
 

@@ -4,7 +4,7 @@ use fearless_simd::{Simd, i16x8, prelude::*};
 
 use super::blocks::{self, Blocks, Mirrored};
 use super::patch_texels::{self, PatchTexels};
-use super::weights::{FixedFormat, PAIRS_UNDER, SMALL, bits};
+use super::weights::{FixedFormat, PAIRS_UNDER, SMALL, bits, weight_index};
 use crate::render::apply::driver::Window;
 use crate::render::apply::texels::Texels;
 use crate::render::plan::window_format::{Kept, ROWS_UNDER, Shape};
@@ -132,7 +132,7 @@ impl<S: Simd, V: Blocks<S, N>, const N: usize, const WIDTH: usize, const HEIGHT:
     #[inline(always)]
     fn add_pair<const UNDER: usize>(&self, sums: &mut Sums<S, V, N>, marks: &mut V, row: usize, pair: usize) {
         let texels: V = self.texels.pair(self.simd, row, 2 * pair);
-        let at = WIDTH / 2 * row + pair;
+        let at = weight_index(WIDTH / 2, row, pair);
         sums.add(texels, V::pair(self.simd, self.weights[at]), at);
         if (UNDER..UNDER + ROWS_UNDER).contains(&row) && pair < PAIRS_UNDER {
             sums.bound(self.simd, texels, *marks);
@@ -199,7 +199,9 @@ impl<S: Simd, V: Blocks<S, N>, const N: usize> Sums<S, V, N> {
 
 /// Splits each pair into its two samples, neither of which is negative.
 #[inline(always)]
-fn halves<S: Simd, V: SimdInt<S>, W: SimdInt<S, Element = i32, ByteVector = V::ByteVector>>(samples: V) -> [W; 2] {
+pub(crate) fn halves<S: Simd, V: SimdInt<S>, W: SimdInt<S, Element = i32, ByteVector = V::ByteVector>>(
+    samples: V,
+) -> [W; 2] {
     let pairs: W = samples.bitcast();
     [pairs & i32::from(i16::MAX), pairs >> 16]
 }
