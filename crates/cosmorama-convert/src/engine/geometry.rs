@@ -1,5 +1,5 @@
 use cosmorama::filter::ClassicTables;
-use cosmorama::raster::{FixedCodec, FixedLight, FramePool, Image, Rgba};
+use cosmorama::raster::{Encoder, FixedCodec, FixedLight, FramePool, Image, Rgba};
 use cosmorama::render::{Arithmetic, Plan, Progress, Stopped, Watched};
 
 use crate::colour::LayerContent;
@@ -111,6 +111,29 @@ impl Geometry {
         let mut image = over(balanced, Rgba::TRANSPARENT);
         self.balance.complete(index, &mut image);
         image.lay_over(background);
+        whole(image, watched)
+    }
+
+    /// Returns whether a target view has a plan that makes the samples of an encoder at once.
+    pub(crate) fn encodes(&self, index: usize, encoder: &Encoder) -> bool {
+        self.plan(index, Arithmetic::Float).is_some_and(|plan| plan.encodes(encoder))
+    }
+
+    /// Renders the samples of a target view whose plan makes them at once, from light of any range over a background, without a
+    /// balance. They are written into memory of a pool.
+    pub(crate) fn samples(
+        &self,
+        index: usize,
+        watched: Watched,
+        (texels, background): (&[Rgba], Rgba),
+        encoder: &Encoder,
+        pool: &FramePool,
+    ) -> Result<Image<[u8; 3]>, Stopped> {
+        let target = watched.resampler.target;
+        let mut image = pool.take_image(target.width(), target.height());
+        if let Some(plan) = self.plan(index, Arithmetic::Float) {
+            plan.apply_encoded_into(texels, background, encoder, &mut image);
+        }
         whole(image, watched)
     }
 

@@ -80,6 +80,11 @@ impl Writer {
         Self { conversion, encoder, names, options, videos, said, is_half, overflowed }
     }
 
+    /// Returns the encoder, if all that becomes of light is encoding.
+    pub(crate) fn encoder_alone(&self) -> Option<&Encoder> {
+        self.conversion.is_none().then_some(&self.encoder)
+    }
+
     /// Returns the number of samples so far that are written as the largest half float, because they are brighter.
     pub(crate) fn overflowed(&self) -> usize {
         self.overflowed.load(Ordering::Relaxed)

@@ -1,3 +1,4 @@
+use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -6,7 +7,7 @@ use cosmorama::filter::{Filter, FilterKind, FilterSettings, Kernel};
 use cosmorama::lighting::PreparedLight;
 use cosmorama::motion::{Exposure, Moment, Pose};
 use cosmorama::raster::{Channels, Depth, FixedCodec, FixedDecoder, Rgba, Transfer};
-use cosmorama::render::{Arithmetic, Resampler};
+use cosmorama::render::{Accuracy, Arithmetic, Needs, Resampler};
 use cosmorama::world::World;
 use cosmorama_builtin::BuiltinWorld;
 use cosmorama_io::{Choice, Format, FrameList};
@@ -411,6 +412,19 @@ impl ConvertJob {
     /// weights depend on the light.
     pub(crate) fn is_balance_asked_for(&self) -> bool {
         self.filter.kind == FilterKind::Ewa && self.filter.kernel == Kernel::LIGHT && !self.filter.anti_ringing
+    }
+
+    /// Returns the rows of its only view, a video, from which all frames are made; `None` where others may be looked at, too.
+    pub(crate) fn rows_read(&self) -> Option<(&Path, Range<usize>)> {
+        let is_still = self.movement.is_none() && self.lighting.is_none() && self.layers.is_plain();
+        let is_local = self.filter.kind == FilterKind::Ewa && !self.is_balance_asked_for() && self.is_complete();
+        let mut present = self.input.present();
+        let (Some((view, ..)), None, [world]) = (present.next(), present.next(), &self.worlds[..]) else { return None };
+        let video = view.files.video().filter(|_| is_still && is_local && view.part.is_none())?;
+        let targets: Vec<View> = self.target.views.iter().map(|target| target.view.clone()).collect();
+        let needs = Needs::of(world, &targets, &self.filter, Accuracy::Bounds);
+        let read = needs.views.first()?.read?;
+        Some((video, read.top..read.bottom))
     }
 
     /// Returns whether the views cover every direction that is wanted.

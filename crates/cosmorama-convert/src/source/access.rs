@@ -241,7 +241,7 @@ pub fn read(files: &dyn Files, path: &Path, limits: &Limits) -> Result<ImageFile
 /// As [`read`].
 pub(crate) fn read_in(files: &dyn Files, path: &Path, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
     if let Some((name, videos)) = frame(files, path) {
-        return videos.picture(&name, limits);
+        return videos.picture(&name, limits, pool);
     }
     read_chosen(files.open(path)?, path, (limits, pool), &files.choice())
 }

@@ -2,6 +2,7 @@
 
 pub(crate) mod access;
 pub(crate) mod decoded_picture;
+pub(crate) mod lock;
 pub(crate) mod memory_budget;
 pub(crate) mod name;
 pub(crate) mod stamp;
@@ -21,4 +22,5 @@ pub use wanted_frames::existing as existing_frames;
 
 pub(crate) use access::{Access, ChosenFiles, read_further, read_in};
 pub(crate) use decoded_picture::DecodedPicture;
+pub(crate) use lock::lock;
 pub(crate) use memory_budget::light_bytes;

@@ -3,6 +3,8 @@
 mod frame;
 mod hdr;
 mod numbers;
+mod quartered;
+mod quartering;
 mod yuv;
 
 use cosmorama::raster::{Primaries, Transfer};
@@ -11,6 +13,8 @@ use cosmorama_io::transfer_of_number;
 pub use hdr::{ContentLight, HdrTags, MasteringDisplay};
 pub(crate) use numbers::Axis;
 pub use numbers::transfer_number;
+pub(crate) use quartered::Quartered;
+pub(crate) use quartering::Quartering;
 pub(crate) use yuv::Coding;
 
 /// Colour tags of a video stream; `None` where it says nothing.

@@ -1,8 +1,8 @@
 //! ffmpeg that decodes: raw frames from its output, and their times from its messages.
 
 use std::io::{self, BufReader, Read};
+use std::ops::Range;
 use std::process::{ChildStdout, Stdio};
-use std::sync::Arc;
 
 use cosmorama::raster::{Depth, EncodedImage, FramePool, Samples};
 
@@ -28,7 +28,8 @@ pub(super) struct Decoder {
     log: Log,
     raw: Raw,
     size: (usize, usize),
-    pool: Arc<FramePool>,
+    /// Rows that ffmpeg gives.
+    rows: Range<usize>,
     /// Whether a frame that is wanted has been told.
     has_begun: bool,
     /// Whether frames before it are decoded and dropped.
@@ -70,6 +71,7 @@ impl Decoder {
         start: Start,
     ) -> Result<Self, VideoError> {
         let raw = Raw::of(info)?;
+        let rows = raw.rows(info.size().1, options.rows.as_ref());
         let mut command = ffmpeg.ffmpeg_command();
         command.args(Log::OPTIONS).args(input_limits());
         // What is damaged is an error, and its frame is missed; otherwise it is painted over.
@@ -86,7 +88,7 @@ impl Decoder {
             command.args(["-noaccurate_seek", "-ss", &format!("{seconds:.6}")]);
         }
         command.arg("-i").arg(url(&info.path)).args(["-map", &format!("0:{}", info.stream)]);
-        command.args(["-vf", &chain(info, raw, start.from)?]).args(ffmpeg.every_frame_once());
+        command.args(["-vf", &chain(info, (raw, &rows), start.from)?]).args(ffmpeg.every_frame_once());
         command.args(["-f", "rawvideo", "-c:v", "rawvideo", "-pix_fmt", &raw.name(), "pipe:1"]);
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = Child::start(command, "ffmpeg", ffmpeg.unfinished())?;
@@ -98,7 +100,7 @@ impl Decoder {
             log,
             raw,
             size: info.size(),
-            pool: Arc::clone(&options.pool),
+            rows,
             has_begun: false,
             is_partial: start.from.is_some(),
             is_painted,
@@ -106,8 +108,8 @@ impl Decoder {
     }
 
     /// Returns the next frame, or how the frames have ended.
-    pub(super) fn next(&mut self, info: &VideoInfo) -> Result<Next, VideoError> {
-        let Some(image) = self.image(info)? else { return self.end() };
+    pub(super) fn next(&mut self, info: &VideoInfo, pool: &FramePool) -> Result<Next, VideoError> {
+        let Some(image) = self.image(info, pool)? else { return self.end() };
         let (mut is_corrupt, mut complaint) = (false, None);
         let time = loop {
             match self.log.next() {
@@ -126,37 +128,46 @@ impl Decoder {
         Ok(Next::Frame(Decoded { image, time, is_corrupt, complaint }))
     }
 
-    fn image(&mut self, info: &VideoInfo) -> Result<Option<EncodedImage>, VideoError> {
-        let (width, height) = self.size;
-        let count = width * height * self.raw.samples();
+    fn image(&mut self, info: &VideoInfo, pool: &FramePool) -> Result<Option<EncodedImage>, VideoError> {
+        let count = self.raw.samples((self.size.0, self.rows.len())) as usize;
         let samples = if self.raw.depth == Depth::Eight {
-            let mut samples = self.pool.take::<u8>(count);
-            self.fill(info, &mut samples)?.then_some(Samples::U8(samples))
+            let mut samples = pool.take::<u8>(count);
+            self.fill(info, &mut samples)?.then(|| self.shallow(samples, pool))
         } else {
-            let mut samples = self.pool.take::<u16>(count);
+            let mut samples = pool.take::<u16>(count);
             let is_filled = self.fill(info, bytemuck::cast_slice_mut(&mut samples))?;
             samples.iter_mut().for_each(|sample| *sample = u16::from_le(*sample));
-            is_filled.then(|| self.deep(samples))
+            is_filled.then(|| self.deep(samples, pool))
         };
         let Some(samples) = samples else { return Ok(None) };
-        let image = EncodedImage::new(width, height, self.raw.channels, self.raw.depth, samples);
+        let image = EncodedImage::new(self.size.0, self.size.1, self.raw.channels, self.raw.depth, samples);
         image.map(Some).map_err(|error| failed(io::Error::other(error)))
     }
 
+    /// Returns RGB of 8 bits.
+    fn shallow(&self, planes: Vec<u8>, pool: &FramePool) -> Samples {
+        let Pixels::Quartered { coding, .. } = self.raw.pixels else { return Samples::U8(planes) };
+        let row = self.size.0 * self.raw.channels.count();
+        let mut pixels = pool.take(row * self.size.1);
+        let given = &mut pixels[row * self.rows.start..row * self.rows.end];
+        coding.pixels(&planes, (self.size.0, self.rows.len()), given);
+        pool.give(Samples::U8(planes));
+        Samples::U8(pixels)
+    }
+
     /// Returns RGB of more than 8 bits.
-    fn deep(&self, planes: Vec<u16>) -> Samples {
-        let (width, height) = self.size;
+    fn deep(&self, planes: Vec<u16>, pool: &FramePool) -> Samples {
+        if self.raw.pixels == Pixels::Rgb {
+            return Samples::U16(planes);
+        }
         let count = self.raw.channels.count();
-        let mut pixels = match self.raw.pixels {
-            Pixels::Rgb => return Samples::U16(planes),
-            Pixels::Yuv(_) | Pixels::Grey(_) => self.pool.take::<u16>(width * height * count),
-        };
+        let mut pixels = pool.take(self.size.0 * self.size.1 * count);
         match self.raw.pixels {
             Pixels::Yuv(coding) => coding.pixels(&planes, count, &mut pixels),
             Pixels::Grey(coding) => coding.grey_pixels(&planes, &mut pixels),
-            Pixels::Rgb => {}
+            Pixels::Rgb | Pixels::Quartered { .. } => {}
         }
-        self.pool.give(Samples::U16(planes));
+        pool.give(Samples::U16(planes));
         Samples::U16(pixels)
     }
 

@@ -1,10 +1,12 @@
 //! Filters by which ffmpeg makes RGB, each choice given in words: its own guesses differ between versions.
 
+use std::ops::Range;
+
 use cosmorama::raster::{Channels, Depth};
 
-use crate::colour::{Axis, Coding};
+use crate::colour::{Axis, Coding, Quartered};
 use crate::ffmpeg::EXACT;
-use crate::{ChromaPlace, VideoError, VideoInfo};
+use crate::{ChromaPlace, Turn, VideoError, VideoInfo};
 
 /// Format of the frames that come out of ffmpeg, and what becomes of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,6 +23,8 @@ pub(super) struct Raw {
 pub(super) enum Pixels {
     /// RGB, as it is given on.
     Rgb,
+    /// Planes of YUV of 8 bits, with a quarter of the chroma samples. ffmpeg would convert them exactly, but slowly.
+    Quartered { coding: Quartered, name: &'static str },
     /// Planes of YUV of more than 8 bits, with all chroma samples. ffmpeg would convert them with errors of the size of a code of 8 bits.
     Yuv(Coding),
     /// A plane of grey of more than 8 bits.
@@ -40,11 +44,16 @@ impl Raw {
             11 | 12 => 12,
             _ => 16,
         };
-        let coding = |matrix| Coding::new(matrix, info.range(), bits).ok_or_else(|| other_matrix(info));
+        let coding = |matrix, bits| Coding::new(matrix, info.range(), bits).ok_or_else(|| other_matrix(info));
         let pixels = match (is_deep, info.is_rgb, info.is_grey && !info.has_alpha) {
-            (true, false, true) => Pixels::Grey(coding(GREY)?),
-            (true, false, false) if !info.is_grey => Pixels::Yuv(coding(info.matrix())?),
-            _ => Pixels::Rgb,
+            (true, false, true) => Pixels::Grey(coding(GREY, bits)?),
+            (true, false, false) if !info.is_grey => Pixels::Yuv(coding(info.matrix(), bits)?),
+            _ => match quartered(info) {
+                Some(name) => {
+                    Pixels::Quartered { coding: Quartered::new(&coding(info.matrix(), 8)?, place(info)), name }
+                }
+                None => Pixels::Rgb,
+            },
         };
         Ok(Self {
             channels: if info.has_alpha { Channels::Rgba } else { Channels::Rgb },
@@ -57,6 +66,7 @@ impl Raw {
     /// Returns ffmpeg's name.
     pub(super) fn name(self) -> String {
         match (self.pixels, self.depth, self.channels.has_alpha()) {
+            (Pixels::Quartered { name, .. }, ..) => name.to_owned(),
             (Pixels::Rgb, Depth::Eight, false) => "rgb24".to_owned(),
             (Pixels::Rgb, Depth::Eight, true) => "rgba".to_owned(),
             (Pixels::Rgb, _, false) => "rgb48le".to_owned(),
@@ -67,13 +77,39 @@ impl Raw {
         }
     }
 
-    /// Returns the number of ffmpeg's samples in a pixel.
-    pub(super) fn samples(self) -> usize {
-        match self.pixels {
-            Pixels::Rgb | Pixels::Yuv(_) => self.channels.count(),
-            Pixels::Grey(_) => 1,
+    /// Returns the rows of a frame that ffmpeg is to give, if some are looked at: with those whose chroma is mixed in, in pairs.
+    pub(super) fn rows(self, height: usize, looked_at: Option<&Range<usize>>) -> Range<usize> {
+        const AROUND: usize = 4;
+        match (self.pixels, looked_at) {
+            (Pixels::Quartered { .. }, Some(Range { start, end })) if start < end => {
+                let first = start.saturating_sub(AROUND) / 2 * 2;
+                first..end.saturating_add(AROUND).next_multiple_of(2).min(height)
+            }
+            _ => 0..height,
         }
     }
+
+    /// Returns the number of ffmpeg's samples in a frame.
+    pub(super) fn samples(self, (width, height): (usize, usize)) -> u64 {
+        let plane = |width: usize, height: usize| width as u64 * height as u64;
+        match self.pixels {
+            Pixels::Rgb | Pixels::Yuv(_) => plane(width, height) * self.channels.count() as u64,
+            Pixels::Quartered { .. } => plane(width, height) + 2 * plane(width.div_ceil(2), height.div_ceil(2)),
+            Pixels::Grey(_) => plane(width, height),
+        }
+    }
+}
+
+/// Returns ffmpeg's name of the planes of a video of 8 bits with a quarter of the chroma samples; `None` for others, and for frames that
+/// are to be turned.
+fn quartered(info: &VideoInfo) -> Option<&'static str> {
+    let is_upright = info.turn == Turn::default();
+    ["yuv420p", "yuvj420p"].into_iter().find(|name| is_upright && *name == info.pixel_format)
+}
+
+/// Returns the place of a video's chroma samples.
+fn place(info: &VideoInfo) -> ChromaPlace {
+    info.colour.chroma.unwrap_or(ChromaPlace::Left)
 }
 
 /// Matrix for grey, which has none: any.
@@ -90,7 +126,11 @@ fn other_matrix(info: &VideoInfo) -> VideoError {
 ///
 /// # Errors
 /// When the video is interlaced, or its matrix is none of three weights.
-pub(super) fn chain(info: &VideoInfo, raw: Raw, from: Option<i64>) -> Result<String, VideoError> {
+pub(super) fn chain(
+    info: &VideoInfo,
+    (raw, rows): (Raw, &Range<usize>),
+    from: Option<i64>,
+) -> Result<String, VideoError> {
     if info.is_interlaced {
         let found = "its frames are interlaced: two moments in one".to_owned();
         let expected = "progressive frames, as from ffmpeg -vf bwdif".to_owned();
@@ -103,7 +143,11 @@ pub(super) fn chain(info: &VideoInfo, raw: Raw, from: Option<i64>) -> Result<Str
     // The second prints frames that have a note, and so the first gives each of them one.
     filters.push("metadata=mode=add:key=c:value=1".to_owned());
     filters.push(r"metadata=mode=print:file=pipe\\:2:direct=1".to_owned());
-    filters.push(scale(info, raw)?);
+    if !matches!(raw.pixels, Pixels::Quartered { .. }) {
+        filters.push(scale(info, raw)?);
+    } else if rows.len() < info.size().1 {
+        filters.push(format!("crop=iw:{}:0:{}:exact=1", rows.len(), rows.start));
+    }
     filters.push(format!("format={}", raw.name()));
     // After the conversion: half of the chroma in a row would not be half in a column.
     filters.extend(info.turn.filters().into_iter().map(str::to_owned));
@@ -116,10 +160,10 @@ fn scale(info: &VideoInfo, raw: Raw) -> Result<String, VideoError> {
     }
     let range = info.range().name();
     // ffmpeg itself takes the middle of two columns, whatever the tag. A place between rows would also move planes that have all rows.
-    let place = match info.colour.chroma {
-        Some(ChromaPlace::Centre) => "",
-        Some(ChromaPlace::TopLeft) => ":in_h_chr_pos=0:in_v_chr_pos=0",
-        Some(ChromaPlace::Left) | None => ":in_h_chr_pos=0",
+    let place = match place(info) {
+        ChromaPlace::Centre => "",
+        ChromaPlace::TopLeft => ":in_h_chr_pos=0:in_v_chr_pos=0",
+        ChromaPlace::Left => ":in_h_chr_pos=0",
     };
     if raw.pixels != Pixels::Rgb {
         return Ok(format!("scale=in_range={range}:out_range={range}{place}:{EXACT}"));

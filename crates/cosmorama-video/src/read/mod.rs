@@ -5,10 +5,9 @@ mod filters;
 mod pair;
 mod reader;
 
-use std::ops::RangeInclusive;
-use std::sync::Arc;
+use std::ops::{Range, RangeInclusive};
 
-use cosmorama::raster::{EncodedImage, FramePool};
+use cosmorama::raster::EncodedImage;
 
 pub use pair::{HalfPlace, PairedReader, SecondHalf};
 pub use reader::VideoReader;
@@ -18,21 +17,20 @@ pub use reader::VideoReader;
 pub struct ReadOptions {
     /// Numbers of the first and last frame, from 0; `None` for all.
     pub frames: Option<RangeInclusive<u64>>,
+    /// Rows of each frame that are looked at; `None` for all. Others may hold anything.
+    pub rows: Option<Range<usize>>,
     /// Answer to a frame that is damaged or missing.
     pub damaged: Damaged,
     /// Bytes that one frame may take.
     pub memory: u64,
     /// Threads of the decoder; 0 for as many as ffmpeg thinks right.
     pub threads: usize,
-    /// Pool from which frames take their memory.
-    pub pool: Arc<FramePool>,
 }
 
 impl Default for ReadOptions {
     /// Returns all frames, without tolerance for damage, of at most four gigabytes each.
     fn default() -> Self {
-        let pool = Arc::new(FramePool::default());
-        Self { frames: None, damaged: Damaged::Error, memory: 4 << 30, threads: 0, pool }
+        Self { frames: None, rows: None, damaged: Damaged::Error, memory: 4 << 30, threads: 0 }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use cosmorama::raster::{EncodedImage, Samples};
+use cosmorama::raster::{EncodedImage, FramePool, Sample, Samples};
 
 use super::{Fault, FrameCondition, ReadOptions, VideoFrame, VideoReader};
 use crate::{Ffmpeg, StreamKind, VideoError, VideoInfo};
@@ -103,12 +103,24 @@ impl PairedReader {
     /// # Errors
     /// When a frame of either is damaged or missing and neither held nor skipped.
     pub fn next_frame(&mut self) -> Result<Option<VideoFrame>, VideoError> {
-        let (mut first, mut second) = (self.first.next_frame()?, self.second.next_frame()?);
+        self.next_frame_in(&FramePool::default())
+    }
+
+    /// Returns the next frame that both streams have, in memory of a pool; see [`next_frame`](Self::next_frame).
+    ///
+    /// # Errors
+    /// As [`next_frame`](Self::next_frame).
+    pub fn next_frame_in(&mut self, pool: &FramePool) -> Result<Option<VideoFrame>, VideoError> {
+        let (mut first, mut second) = (self.first.next_frame_in(pool)?, self.second.next_frame_in(pool)?);
         while let (Some(one), Some(other)) = (&first, &second) {
             match one.index.cmp(&other.index) {
-                std::cmp::Ordering::Less => first = self.first.next_frame()?,
-                std::cmp::Ordering::Greater => second = self.second.next_frame()?,
-                std::cmp::Ordering::Equal => return joined(one, other, self.place).map(Some),
+                std::cmp::Ordering::Less => first = self.first.next_frame_in(pool)?,
+                std::cmp::Ordering::Greater => second = self.second.next_frame_in(pool)?,
+                std::cmp::Ordering::Equal => {
+                    let both = joined((one, other), self.place, pool)?;
+                    [first, second].into_iter().flatten().for_each(|half| pool.give(half.image.into_samples()));
+                    return Ok(Some(both));
+                }
             }
         }
         Ok(None)
@@ -121,12 +133,16 @@ impl PairedReader {
 }
 
 /// Puts two frames into one picture.
-fn joined(first: &VideoFrame, second: &VideoFrame, place: HalfPlace) -> Result<VideoFrame, VideoError> {
+fn joined(
+    (first, second): (&VideoFrame, &VideoFrame),
+    place: HalfPlace,
+    pool: &FramePool,
+) -> Result<VideoFrame, VideoError> {
     let (one, other) = (&first.image, &second.image);
     let row = one.width() * one.channels().count();
     let samples = match (one.samples(), other.samples()) {
-        (Samples::U8(one), Samples::U8(other)) => Samples::U8(both(one, other, (row, place))),
-        (Samples::U16(one), Samples::U16(other)) => Samples::U16(both(one, other, (row, place))),
+        (Samples::U8(one), Samples::U8(other)) => Samples::U8(both((one, other), (row, place), pool)),
+        (Samples::U16(one), Samples::U16(other)) => Samples::U16(both((one, other), (row, place), pool)),
         // Streams that are alike have samples of one kind.
         (samples, _) => samples.clone(),
     };
@@ -140,19 +156,23 @@ fn joined(first: &VideoFrame, second: &VideoFrame, place: HalfPlace) -> Result<V
 }
 
 /// Returns the samples of two pictures with rows of so many samples, in one.
-fn both<S: Copy>(first: &[S], second: &[S], (row, place): (usize, HalfPlace)) -> Vec<S> {
+fn both<S: Sample>((first, second): (&[S], &[S]), (row, place): (usize, HalfPlace), pool: &FramePool) -> Vec<S> {
+    let mut samples = pool.take(first.len() + second.len());
     match place {
-        HalfPlace::Below => [first, second].concat(),
+        HalfPlace::Below => {
+            let (one, other) = samples.split_at_mut(first.len());
+            one.copy_from_slice(first);
+            other.copy_from_slice(second);
+        }
         HalfPlace::Beside => {
             let rows = first.chunks_exact(row).zip(second.chunks_exact(row));
-            let mut samples = Vec::with_capacity(first.len() + second.len());
-            rows.for_each(|(one, other)| {
-                samples.extend_from_slice(one);
-                samples.extend_from_slice(other);
-            });
-            samples
+            for (into, (one, other)) in samples.chunks_exact_mut(2 * row).zip(rows) {
+                into[..row].copy_from_slice(one);
+                into[row..].copy_from_slice(other);
+            }
         }
     }
+    samples
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@ use super::decoder::{Decoded, Decoder, Ended, Next, Start};
 use super::filters::{Pixels, Raw};
 use super::{Damaged, Fault, FrameCondition, ReadOptions, VideoFrame};
 use crate::{Announced, AnnouncedBy, CutShort, Ffmpeg, Timeline, VideoError, VideoInfo};
-use cosmorama::raster::EncodedImage;
+use cosmorama::raster::{EncodedImage, FramePool};
 
 /// Frames of a video in the order in which they are shown. Dropped early, it ends its ffmpeg.
 #[derive(Debug)]
@@ -104,7 +104,15 @@ impl VideoReader {
     /// # Errors
     /// When a frame is damaged or missing and neither held nor skipped, or there are fewer than the file announces.
     pub fn next_frame(&mut self) -> Result<Option<VideoFrame>, VideoError> {
-        let result = self.found_next();
+        self.next_frame_in(&FramePool::default())
+    }
+
+    /// Returns the next frame, in memory of a pool; `None` after the last.
+    ///
+    /// # Errors
+    /// As [`next_frame`](Self::next_frame).
+    pub fn next_frame_in(&mut self, pool: &FramePool) -> Result<Option<VideoFrame>, VideoError> {
+        let result = self.found_next(pool);
         if !matches!(result, Ok(Some(_))) {
             self.decoder = None;
         }
@@ -121,13 +129,13 @@ impl VideoReader {
         &self.timeline
     }
 
-    fn found_next(&mut self) -> Result<Option<VideoFrame>, VideoError> {
+    fn found_next(&mut self, pool: &FramePool) -> Result<Option<VideoFrame>, VideoError> {
         loop {
             if self.options.frames.as_ref().is_some_and(|range| self.expected > *range.end()) {
                 return Ok(None);
             }
             if self.ahead.is_none() {
-                self.decode()?;
+                self.decode(pool)?;
             }
             let found = match self.ahead.take() {
                 Some(Ahead { index, frame }) if index == self.expected && !frame.is_corrupt => {
@@ -154,10 +162,10 @@ impl VideoReader {
     }
 
     /// Decodes a frame into `ahead`, or finds the number of all frames.
-    fn decode(&mut self) -> Result<(), VideoError> {
+    fn decode(&mut self, pool: &FramePool) -> Result<(), VideoError> {
         loop {
             let Some(decoder) = &mut self.decoder else { return Ok(()) };
-            let mut frame = match decoder.next(&self.info)? {
+            let mut frame = match decoder.next(&self.info, pool)? {
                 Next::Frame(frame) => frame,
                 Next::End(_) if std::mem::take(&mut self.may_restart) => {
                     self.restart()?;
@@ -352,9 +360,9 @@ fn start(info: &VideoInfo, timeline: &Timeline, first: u64) -> Start {
 fn check_memory(info: &VideoInfo, options: &ReadOptions) -> Result<(), VideoError> {
     let (raw, (width, height)) = (Raw::of(info)?, info.size());
     // Planes are held beside the picture that is made of them.
-    let planes = if raw.pixels == Pixels::Rgb { 0 } else { raw.samples() };
-    let bytes = (raw.channels.count() + planes) * raw.depth.bytes();
-    let needed = width as u128 * height as u128 * bytes as u128;
+    let planes = if raw.pixels == Pixels::Rgb { 0 } else { raw.samples((width, height)) };
+    let pixels = width as u64 * height as u64 * raw.channels.count() as u64;
+    let needed = u128::from(pixels + planes) * raw.depth.bytes() as u128;
     let limit = options.memory.min(isize::MAX as u64);
     if needed > u128::from(limit) {
         let size = (width as u64, height as u64);

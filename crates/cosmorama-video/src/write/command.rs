@@ -3,10 +3,13 @@
 use std::path::Path;
 use std::process::{Command, Stdio};
 
+use cosmorama::raster::Depth;
+
 use super::carried::Plan;
 use super::codec::Encoder;
+use super::feed::Planes;
 use super::{Codec, Container, WriteSettings};
-use crate::colour::Coding;
+use crate::colour::{Coding, Quartering};
 use crate::ffmpeg::{EXACT, Log, url};
 use crate::{ColourTags, Ffmpeg, SignalRange};
 
@@ -54,7 +57,9 @@ impl Parts<'_> {
         let range = tags.range.unwrap_or(SignalRange::Narrow).name();
         let scale = if self.codec.is_rgb() {
             format!("scale={EXACT}")
-        } else if self.coding().is_some() {
+        } else if matches!(self.planes(), Some(Planes::Quartered(_))) {
+            "null".to_owned()
+        } else if self.planes().is_some() {
             // The matrix is applied before; only chroma samples become fewer.
             format!("scale=in_range={range}:out_range={range}:{LEFT}:{EXACT}")
         } else {
@@ -70,13 +75,15 @@ impl Parts<'_> {
         format!("settb={tick},{scale},format={},setparams={}", self.encoder.pixel_format, parameters(&tags).join(":"))
     }
 
-    /// Returns the relation by which frames become YUV before ffmpeg gets them; `None` where it gets RGB.
-    pub(super) fn coding(&self) -> Option<Coding> {
-        const BITS: u32 = 10;
-        let is_yuv = self.encoder.pixel_format.ends_with("10le");
+    /// Returns the planes that frames become before ffmpeg gets them; `None` where it gets RGB.
+    pub(super) fn planes(&self) -> Option<Planes> {
         let tags = self.colour();
-        let range = tags.range.unwrap_or(SignalRange::Narrow);
-        if is_yuv { Coding::new(tags.matrix?, range, BITS) } else { None }
+        let coding = |bits| Coding::new(tags.matrix?, tags.range.unwrap_or(SignalRange::Narrow), bits);
+        match self.encoder.pixel_format {
+            "yuv420p" if self.settings.depth == Depth::Eight => Some(Planes::Quartered(Quartering::new(&coding(8)?))),
+            name if name.ends_with("10le") => coding(10).map(Planes::Deep),
+            _ => None,
+        }
     }
 
     /// Returns the colour tags, with matrix and range chosen.

@@ -6,7 +6,7 @@ use std::io::{self, Write};
 
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
 
-use crate::colour::Coding;
+use crate::colour::{Coding, Quartering};
 use crate::{Bounds, HdrTags, MasteringDisplay, Ratio, SpatialTags, SphericalProjection, StereoMode};
 
 /// Header of the stream.
@@ -23,21 +23,30 @@ pub(super) struct Header<'a> {
 pub(super) struct RawFormat {
     pub(super) depth: Depth,
     pub(super) has_alpha: bool,
-    /// Relation to planes of YUV of 10 bits with all chroma samples; `None` for RGB. ffmpeg would convert more than 8 bits with errors of
-    /// the size of a code of 8 bits.
-    pub(super) coding: Option<Coding>,
+    /// Planes of YUV that are made of pixels; `None` for RGB.
+    pub(super) planes: Option<Planes>,
+}
+
+/// Planes of YUV.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Planes {
+    /// Planes of 10 bits with all chroma samples. ffmpeg would convert more than 8 bits with errors of the size of a code of 8 bits.
+    Deep(Coding),
+    /// Planes of 8 bits with a quarter of the chroma samples, which are half as many bytes as RGB.
+    Quartered(Quartering),
 }
 
 impl RawFormat {
     /// Returns the code by which ffmpeg knows the format.
     fn code(self) -> &'static [u8; 4] {
-        match (self.coding.is_some(), self.is_deep(), self.has_alpha) {
-            (true, _, false) => b"Y3\0\x0a",
-            (true, _, true) => b"Y4\0\x0a",
-            (false, false, false) => b"RGB\x18",
-            (false, false, true) => b"RGBA",
-            (false, true, false) => b"RGB0",
-            (false, true, true) => b"RBA\x40",
+        match (self.planes, self.is_deep(), self.has_alpha) {
+            (Some(Planes::Quartered(_)), ..) => b"I420",
+            (Some(Planes::Deep(_)), _, false) => b"Y3\0\x0a",
+            (Some(Planes::Deep(_)), _, true) => b"Y4\0\x0a",
+            (None, false, false) => b"RGB\x18",
+            (None, false, true) => b"RGBA",
+            (None, true, false) => b"RGB0",
+            (None, true, true) => b"RBA\x40",
         }
     }
 
@@ -240,16 +249,19 @@ pub(super) fn write_frame(
     format: RawFormat,
     stamp: Stamp,
 ) -> io::Result<()> {
-    let planes;
-    let bytes = match (format.coding, frame.samples()) {
-        (Some(coding), samples) => {
-            planes = coding.planes(samples, frame.channels().count());
-            bytes_of(&planes)
+    let deep;
+    let bytes = match (format.planes, frame.samples()) {
+        (Some(Planes::Deep(coding)), samples) => {
+            deep = coding.planes(samples, frame.channels().count());
+            bytes_of(&deep)
+        }
+        (Some(Planes::Quartered(quartering)), Samples::U8(samples)) => {
+            quartering.planes(samples, (frame.width(), frame.height())).into()
         }
         (None, Samples::U8(samples)) => samples.as_slice().into(),
         (None, Samples::U16(samples)) => bytes_of(samples),
-        // Frames of floats are refused before.
-        (None, Samples::Half(_) | Samples::Float(_)) => (&[] as &[u8]).into(),
+        // Frames of floats are refused before, and those of 16 bits where planes have 8.
+        (None, Samples::Half(_) | Samples::Float(_)) | (Some(Planes::Quartered(_)), _) => (&[] as &[u8]).into(),
     };
     let nanosecond = Ratio::new(1, NANOSECONDS as u64).unwrap_or(Ratio::ONE);
     let time = whole(TIMESTAMP, stamp.tick.rescale(stamp.time, nanosecond).max(0).cast_unsigned());

@@ -65,7 +65,7 @@ impl VideoWriter {
         let mut child = Child::start(parts.command(ffmpeg), "ffmpeg", ffmpeg.unfinished())?;
         let log = Log::of(child.stderr());
         let stdin = child.stdin().ok_or_else(|| failed(io::ErrorKind::BrokenPipe.into()))?;
-        let format = RawFormat { depth: settings.depth, has_alpha: settings.has_alpha, coding: parts.coding() };
+        let format = RawFormat { depth: settings.depth, has_alpha: settings.has_alpha, planes: parts.planes() };
         check_block(path, &settings, format)?;
         let encoder = encoder.name;
         let frames = Some(BufWriter::with_capacity(1 << 16, stdin));

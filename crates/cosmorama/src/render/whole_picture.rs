@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::apply::fixed::FixedArithmetic;
-use super::apply::float::FloatArithmetic;
+use super::apply::float::{FloatArithmetic, Uncoded};
 use super::batch::window::Level;
 use super::picture::two_pass;
 use super::plan::{self, Arithmetic, Plan};
@@ -54,7 +54,12 @@ impl Resampler<'_> {
         assert_eq!(texels.len(), self.world.texel_count(), "one texel of light for each texel of the world");
         let mut image = match self.filter.kind {
             FilterKind::Ewa | FilterKind::Point | FilterKind::Bilinear => {
-                return plan::render((self, None), FloatArithmetic { texels, background }, Level::new(), watch);
+                return plan::render(
+                    (self, None),
+                    FloatArithmetic { texels, background, pixels: Uncoded },
+                    Level::new(),
+                    watch,
+                );
             }
             FilterKind::Reference { samples } => {
                 let filter = self.filter.reference(samples);

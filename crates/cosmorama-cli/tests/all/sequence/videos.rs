@@ -120,6 +120,46 @@ fn a_cut_video_fails_and_names_the_frame() {
     assert!((10..20).contains(&left), "{left} frames");
 }
 
+/// Of a video with few chroma samples, a sequence decodes the rows that its pictures show alone; a single picture decodes all.
+#[test]
+fn rows_that_nothing_shows_are_not_missed() {
+    if !has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    let pictures = ["-f", "lavfi", "-i", "testsrc2=size=64x38:rate=25", "-frames:v", "3", "-pix_fmt", "yuv420p"];
+    ffmpeg(&bench, &[&pictures[..], &["-c:v", "ffv1", "film.mkv"]].concat());
+    for (folder, pitch) in [("up", "0"), ("down", "-150"), ("level", "-80")] {
+        let to = ["--from", "equirect", "--to", "fulldome", "--pitch", pitch, "--size", "32"];
+        for (files, frames) in [("all/####.png", "0-2"), ("one/####.png", "1")] {
+            let output = format!("{folder}/{files}");
+            bench.succeed(&[&["convert", "film.mkv", &output], &to[..], &["--frames", frames]].concat());
+        }
+        assert_same(&bench, &format!("{folder}/all"), &format!("{folder}/one"), 1..2);
+    }
+}
+
+/// Frames beyond those that a file counts are left out, and told of.
+#[test]
+fn frames_that_are_not_announced_are_told() {
+    if !has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    let pictures = ["-f", "lavfi", "-i", "testsrc2=size=64x32:rate=25", "-frames:v", "5", "-c:v", "ffv1"];
+    ffmpeg(&bench, &[&pictures[..], &["-metadata:s:v", "NUMBER_OF_FRAMES=3", "film.mkv"]].concat());
+    let said = bench.run(&[&["convert", "film.mkv", "dome.mkv"], &DOME[..]].concat());
+    assert_eq!(said.status.code(), Some(0), "{}", text(&said.stderr));
+    assert_says(&text(&said.stderr), &["warning: film.mkv", "more frames than the 3", "left out"]);
+    assert_eq!(taken_apart(&bench, "dome.mkv", "dome"), 3);
+    let said = bench.run(&["verify", "film.mkv"]);
+    assert_eq!(said.status.code(), Some(1));
+    assert_says(&text(&said.stdout), &["more frames than the 3"]);
+    // Whoever asks for some of them alone reads no further.
+    let said = bench.run(&[&["convert", "film.mkv", "part_####.png", "--frames", "0-1"], &DOME[..]].concat());
+    assert!(!text(&said.stderr).contains("announces"), "{}", text(&said.stderr));
+}
+
 #[test]
 fn sound_goes_along_and_is_cut_with_the_frames() {
     if !has_ffmpeg() {

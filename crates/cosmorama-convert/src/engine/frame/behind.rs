@@ -7,11 +7,11 @@ use cosmorama::raster::{Image, Rgba};
 use cosmorama::render::{Progress, Stopped};
 use rayon::prelude::*;
 
-use super::pictures::lock;
 use crate::diagnostic::{Diagnostic, Result};
 use crate::engine::warnings::Tally;
 use crate::engine::{Engine, FrameFile, FrameLight, Spent, Stages, ViewImage, Which, WriterOptions};
 use crate::job::ConvertJob;
+use crate::source::lock;
 
 /// The world behind the input, with its light in the frame that is made.
 pub(super) struct Behind<'a> {

@@ -1,8 +1,9 @@
 //! Decisions of an engine in words: geometry that is kept or not, and frames in flight.
 
-use super::pictures::{Engine, lock};
+use super::pictures::Engine;
 use crate::diagnostic::{Decision, Topic};
 use crate::job::{QueueDepth, program_bytes};
+use crate::source::lock;
 use crate::source::memory_budget::human;
 
 impl Engine<'_> {

@@ -1,5 +1,5 @@
 use std::collections::BTreeSet;
-use std::ops::AddAssign;
+use std::ops::{AddAssign, Range};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
@@ -28,6 +28,8 @@ pub(crate) struct FrameLight {
     flattened: BTreeSet<PathBuf>,
     /// Whether frames are held in 15 bits where possible.
     is_fixed: bool,
+    /// Rows of each view from which pictures are made. Others need not be decoded.
+    rows: Range<usize>,
     /// Whether the views that do not change from frame to frame have been read.
     has_still: bool,
     decoder: Decoder,
@@ -60,7 +62,7 @@ pub(crate) enum Spent {
 
 impl FrameLight {
     /// Allocates the light of a job's frames.
-    pub(crate) fn new(job: &ConvertJob, is_fixed: bool) -> Self {
+    pub(crate) fn new(job: &ConvertJob, is_fixed: bool, rows: Range<usize>) -> Self {
         let texels = if is_fixed { Texels::fixed(job) } else { Texels::floats(job) };
         // Labels at a rim are not mixed with their surroundings, and restoring them would make new labels.
         let has_rims = !matches!(job.filter.kind, FilterKind::Labels(_));
@@ -78,6 +80,7 @@ impl FrameLight {
             rims,
             flattened,
             is_fixed,
+            rows,
             has_still: false,
             decoder,
             fixed_decoders,
@@ -190,7 +193,7 @@ impl FrameLight {
         if !images.is_empty() {
             self.tables.fill(OnceLock::new());
         }
-        let Self { texels, rims, decoder, fixed_decoders, .. } = self;
+        let Self { texels, rims, decoder, fixed_decoders, rows: wanted, .. } = self;
         let counts = match texels {
             Texels::Fixed(worlds) => {
                 let decoder = |image: &ViewImage| {
@@ -201,7 +204,7 @@ impl FrameLight {
                     // An integer is always a number, and its light is in working primaries.
                     Counts::default()
                 };
-                decode((images, spent), worlds.iter_mut().flat_map(FixedLight::views_mut), stages, rows)
+                decode((images, spent, wanted), worlds.iter_mut().flat_map(FixedLight::views_mut), stages, rows)
             }
             Texels::Float(worlds) => {
                 let rows = |image: &ViewImage, first: usize, into: &mut [Rgba]| {
@@ -210,7 +213,7 @@ impl FrameLight {
                     let converted = |conversion: &LightConversion| conversion.convert(into);
                     Counts { irregular, outside: conversion.as_ref().map_or(irregular.negative, converted) }
                 };
-                decode((images, spent), views(job, worlds), stages, rows)
+                decode((images, spent, wanted), views(job, worlds), stages, rows)
             }
         };
         texels.restore_rims(job, images, rims);
@@ -282,9 +285,9 @@ impl AddAssign for Counts {
 }
 
 /// Decodes images in parallel pieces, and returns the counts of each. Each view is given by its rows,
-/// all of one length; `rows` decodes some of them.
+/// all of one length; `rows` decodes some of them. Where samples are kept, rows that are not wanted may be left out.
 fn decode<'a, T: Send + 'a>(
-    (images, spent): (&mut [ViewImage], Spent),
+    (images, spent, wanted): (&mut [ViewImage], Spent, &Range<usize>),
     views: impl Iterator<Item = &'a mut [T]>,
     stages: &Stages,
     rows: impl Fn(&ViewImage, usize, &mut [T]) -> Counts + Sync,
@@ -297,7 +300,9 @@ fn decode<'a, T: Send + 'a>(
     match spent {
         Spent::Kept => {
             let all = images.iter().enumerate().flat_map(|(index, image)| {
-                pieces(image, 0, view(image)).map(move |(first, into)| (index, image, first, into))
+                let is_wanted = |first: usize| first < wanted.end && wanted.start < first + rows_of_piece(image);
+                let pieces = pieces(image, 0, view(image)).filter(move |(first, _)| is_wanted(*first));
+                pieces.map(move |(first, into)| (index, image, first, into))
             });
             decode_pieces(all.collect(), rows, &mut counts);
         }
@@ -360,9 +365,14 @@ fn free<T: Send>(
 
 /// Returns an image's texels in pieces for threads, each with its first row, where the texels begin with row `first`.
 fn pieces<'a, T>(image: &ViewImage, first: usize, texels: &'a mut [T]) -> impl Iterator<Item = (usize, &'a mut [T])> {
-    let some = PIECE.div_ceil(image.image.width().max(1));
+    let some = rows_of_piece(image);
     let pitch = (texels.len() / (image.image.height() - first).max(1)).max(1);
     texels.chunks_mut(some * pitch).enumerate().map(move |(piece, into)| (first + piece * some, into))
+}
+
+/// Returns the number of rows of a piece.
+fn rows_of_piece(image: &ViewImage) -> usize {
+    PIECE.div_ceil(image.image.width().max(1))
 }
 
 /// Limits light to white, as in files of integers, so that 15 bits and floats give the same.

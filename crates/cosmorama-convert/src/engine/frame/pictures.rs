@@ -1,9 +1,10 @@
+use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock};
 
 use cosmorama::camera::View;
 use cosmorama::filter::Ewa;
-use cosmorama::raster::{FixedCodec, FixedLight, FramePool, Image, Rgba};
+use cosmorama::raster::{Encoder, FixedCodec, FixedLight, FramePool, Image, Rgba};
 use cosmorama::render::{Continuation, Progress, Share, Stopped};
 use cosmorama::world::Source;
 use cosmorama_io::WriteOptions;
@@ -22,11 +23,14 @@ use crate::input::InputView;
 use crate::job::coverage::Coverage;
 use crate::job::{ConvertJob, FrameNeeds, FrameOutputs, QueueDepth};
 use crate::settings::{LightScale, LightSettings};
+use crate::source::lock;
 use crate::target::{Sheet, Target};
 
 /// Makes the outputs of a job, frame by frame.
 pub(crate) struct Engine<'a> {
     pub(super) job: &'a ConvertJob,
+    /// Rows of each view from which pictures are made.
+    rows: Range<usize>,
     /// Encoder from 15 bits to 8, for jobs with opaque 8-bit pictures in and out.
     codec: Option<FixedCodec>,
     /// World behind the input.
@@ -83,7 +87,12 @@ impl<'a> Engine<'a> {
         let writer = Writer::new(&job.light, &job.layers.picture, WriterOptions { files, ..options });
         let (codec, posed, told) = (job.fixed_codec(), Mutex::new(posed), Mutex::new(told));
         let edges = job.worlds.iter().map(|_| OnceLock::new()).collect();
-        Ok(Self { job, codec, behind, posed, told, writer, queue_depth, pool, edges, lit: Mutex::default() })
+        let rows = job.rows_read().filter(|_| job.outputs.are_many());
+        if let (Some((video, rows)), Some(videos)) = (&rows, job.files.videos()) {
+            videos.expect_rows(video, rows.clone());
+        }
+        let rows = rows.map_or(0..usize::MAX, |(_, rows)| rows);
+        Ok(Self { job, rows, codec, behind, posed, told, writer, queue_depth, pool, edges, lit: Mutex::default() })
     }
 
     /// Adds diagnostics about geometry, each of which is told once.
@@ -173,7 +182,7 @@ impl<'a> Engine<'a> {
 
     /// Allocates the light of a frame.
     pub(crate) fn frame_light(&self) -> FrameLight {
-        FrameLight::new(self.job, self.codec.is_some())
+        FrameLight::new(self.job, self.codec.is_some(), self.rows.clone())
     }
 
     /// Returns the writer of the pictures.
@@ -329,18 +338,48 @@ impl<'a> Engine<'a> {
         making: &mut Making,
     ) -> Result<Levels> {
         let sheets = self.job.target.files[file].levels();
-        match (light.texels(), &self.codec) {
-            (Texels::Fixed(worlds), Some(codec)) => {
-                let mut view = |index| self.codes(index, (worlds, codec), making);
-                let picture = |sheet: &Sheet| sheet.assemble_in(&self.pool, codec.background(), &mut view);
-                Ok(Levels::Codes(sheets.map(picture).collect::<Result<_>>()?))
-            }
-            _ => {
-                let mut view = |index| self.render_view(index, (frame, light), making);
-                let picture = |sheet: &Sheet| sheet.assemble_in(&self.pool, self.job.light.background, &mut view);
-                Ok(Levels::Light(sheets.map(picture).collect::<Result<_>>()?))
-            }
+        if let (Texels::Fixed(worlds), Some(codec)) = (light.texels(), &self.codec) {
+            let mut view = |index| self.codes(index, (worlds, codec), making);
+            let picture = |sheet: &Sheet| sheet.assemble_in(&self.pool, codec.background(), &mut view);
+            return Ok(Levels::Codes(sheets.map(picture).collect::<Result<_>>()?));
         }
+        if let (Texels::Float(worlds), Some((encoder, background))) =
+            (light.texels(), self.encoder_at_once(file, light, making))
+        {
+            let mut view = |index| self.samples(index, (worlds, encoder), making);
+            let picture = |sheet: &Sheet| sheet.assemble_in(&self.pool, background, &mut view);
+            return Ok(Levels::Codes(sheets.map(picture).collect::<Result<_>>()?));
+        }
+        let mut view = |index| self.render_view(index, (frame, light), making);
+        let picture = |sheet: &Sheet| sheet.assemble_in(&self.pool, self.job.light.background, &mut view);
+        Ok(Levels::Light(sheets.map(picture).collect::<Result<_>>()?))
+    }
+
+    /// Returns the encoder of a file whose samples are made at once, without pictures of light, and those of the background: nothing else
+    /// is done with its light, and each of its views has a plan.
+    fn encoder_at_once(&self, file: usize, light: &FrameLight, making: &Making) -> Option<(&Encoder, [u8; 3])> {
+        let (job, geometry) = (self.job, &making.layer.posed.geometry);
+        let is_alone = self.is_solid() && self.is_complete(light) && job.layers.is_plain() && job.formula.is_none();
+        let is_plain = is_alone && !job.is_blurred && !job.is_balance_asked_for();
+        let encoder = self.writer.encoder_alone().filter(|_| is_plain)?;
+        let background = encoder.rgb(job.light.background)?;
+        let mut pieces = job.target.files[file].levels().flat_map(|sheet| &sheet.pieces);
+        pieces.all(|(index, _)| geometry.encodes(*index, encoder)).then_some((encoder, background))
+    }
+
+    fn samples(
+        &self,
+        index: usize,
+        (worlds, encoder): (&[Vec<Rgba>], &Encoder),
+        making: &mut Making,
+    ) -> Result<Image<[u8; 3]>> {
+        let posed = &making.layer.posed;
+        let target = &posed.views[index];
+        let light = (&worlds[target.world(worlds.len())][..], self.job.light.background);
+        let share = making.shares.next(&target.view);
+        let made =
+            posed.geometry.samples(index, self.job.resampler(target).watched(&share), light, encoder, &self.pool);
+        made.map_err(|Stopped| self.stopped())
     }
 
     fn codes(
@@ -363,8 +402,7 @@ impl<'a> Engine<'a> {
         (frame, light): (Option<u64>, &FrameLight),
         Making { layer, shares }: &mut Making,
     ) -> Result<Image<Rgba>> {
-        let is_solid = self.behind.is_none() && self.job.opacity >= 1.0;
-        if is_solid && self.is_complete(light) && !self.job.light.channels.has_alpha() {
+        if self.is_solid() && self.is_complete(light) && !self.job.light.channels.has_alpha() {
             // A file without alpha shows everything in front of the background.
             return self.filtered(index, (light, self.job.light.background), layer, shares);
         }
@@ -419,6 +457,11 @@ impl<'a> Engine<'a> {
     /// Creates the error of a stopped frame, as if no frame were done: the caller knows how many are.
     pub(super) fn stopped(&self) -> ConvertError {
         ConvertError::Stopped { done: 0, frames: self.job.outputs.count() }
+    }
+
+    /// Returns whether nothing is seen through the input.
+    fn is_solid(&self) -> bool {
+        self.behind.is_none() && self.job.opacity >= 1.0
     }
 
     /// Returns whether no texels are missing and every pixel has a view.
@@ -503,11 +546,6 @@ impl<'a> Engine<'a> {
             posed.mask(self.job, index).surround(image, background);
         }
     }
-}
-
-/// Locks a value that no panic leaves half changed.
-pub(super) fn lock<T>(value: &Mutex<T>) -> MutexGuard<'_, T> {
-    value.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Returns the bytes of geometry that is kept while a moving camera stands still for several frames.

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use cosmorama::raster::{EncodedImage, FramePool};
 use cosmorama_io::IoError;
@@ -63,14 +63,14 @@ const USUAL: FrameRate = FrameRate { frames: 30, seconds: 1 };
 
 impl MadeVideos {
     /// Checks the settings of videos before anything is read for them.
-    pub(crate) fn check(outputs: &[PathBuf], plan: &VideoPlan) -> Result<()> {
+    pub(crate) fn check(outputs: &[PathBuf], plan: &VideoPlan, videos: Option<&Videos>) -> Result<()> {
         codec(plan)?;
         for path in outputs.iter().filter(|path| RawKind::of(path).is_none()) {
             if Container::of_path(path).is_none() {
                 let error = VideoError::UnknownContainer { path: path.clone() };
                 return Err(usage_as(Code::OutputFormat, error.to_string()));
             }
-            Ffmpeg::find().map_err(foreign)?;
+            found_ffmpeg(videos)?;
         }
         Ok(())
     }
@@ -103,7 +103,7 @@ impl MadeVideos {
         }
         // At another rate, frames do not keep their times, and no sound goes along.
         let has_times = |info: &&VideoInfo| info.is_variable && rate.is_none_or(|rate| ratio(rate) == info.rate);
-        let timeline = info.as_ref().filter(has_times).map(timeline).transpose()?;
+        let timeline = info.as_ref().filter(has_times).map(|info| timeline(videos, info)).transpose()?;
         let frames = plan.source.as_ref().map(|source| &source.frames[..]);
         let source =
             info.as_ref().zip(frames).map(|(info, frames)| Shown { info, frames, timeline: timeline.as_ref() });
@@ -118,7 +118,7 @@ impl MadeVideos {
                 all.push((path.clone(), video));
                 continue;
             }
-            let ffmpeg = Ffmpeg::find().map_err(foreign)?;
+            let ffmpeg = found_ffmpeg(videos)?;
             let colour = ColourTags::of(&plan.primaries, &plan.transfer);
             let settings = WriteSettings {
                 times,
@@ -249,9 +249,17 @@ impl Shown<'_> {
     }
 }
 
+/// Finds the installed programs, if the videos that are read have not.
+fn found_ffmpeg(videos: Option<&Videos>) -> Result<Arc<Ffmpeg>> {
+    match videos {
+        Some(videos) => Ok(videos.ffmpeg()?),
+        None => Ok(Arc::new(Ffmpeg::find().map_err(foreign)?)),
+    }
+}
+
 /// Finds the times of a video's frames.
-fn timeline(info: &VideoInfo) -> Result<Timeline> {
-    Ok(Ffmpeg::find().and_then(|ffmpeg| ffmpeg.timeline(info)).map_err(foreign)?)
+fn timeline(videos: Option<&Videos>, info: &VideoInfo) -> Result<Timeline> {
+    Ok(found_ffmpeg(videos)?.timeline(info).map_err(foreign)?)
 }
 
 fn rate_of(times: FrameTimes) -> Ratio {

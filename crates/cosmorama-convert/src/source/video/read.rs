@@ -3,9 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock};
 
-use cosmorama::raster::EncodedImage;
+use cosmorama::raster::{EncodedImage, FramePool};
 use cosmorama_io::pending::Unfinished;
 use cosmorama_io::{Header, ImageFile, IoError, Limits};
 use cosmorama_spec::{FrameRate, Spec};
@@ -18,6 +18,7 @@ use thiserror::Error;
 use super::live::Live;
 use super::raw::{RawInfo, RawReader, aside, foreign};
 use super::{Coming, DamagedFrames, FrameName, RawBytes, RawFiles, RawKind, described};
+use crate::source::lock;
 
 /// Videos among the inputs of a conversion. Each is opened when it is first asked for.
 #[derive(Debug)]
@@ -70,6 +71,8 @@ struct State {
     wanted: BTreeSet<u64>,
     /// Whether it is known which frames will be asked for.
     is_expected: bool,
+    /// Rows of frames of which pictures are made.
+    rows: Option<Range<usize>>,
     /// Frames that were decoded before they were asked for.
     early: BTreeMap<u64, EncodedImage>,
     /// Frames that the decoder left out.
@@ -103,10 +106,10 @@ impl Videos {
         Ok(self.source(&name.video)?.header.clone())
     }
 
-    /// Decodes a frame.
-    pub(crate) fn picture(&self, name: &FrameName, limits: &Limits) -> Result<ImageFile, IoError> {
+    /// Decodes a frame, into memory of a pool.
+    pub(crate) fn picture(&self, name: &FrameName, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
         let source = self.source(&name.video)?;
-        let image = source.frame(name.frame, limits)?;
+        let image = source.frame(name.frame, limits, pool)?;
         let image = image.ok_or_else(|| IoError::LeftOut { path: name.path() })?;
         let Header { format, metadata, .. } = source.header.clone();
         Ok(ImageFile { format, image, metadata, window: None })
@@ -184,6 +187,13 @@ impl Videos {
         Ok(())
     }
 
+    /// Says of which rows of its frames pictures are made, so that others need not be decoded.
+    pub(crate) fn expect_rows(&self, video: &Path, rows: Range<usize>) {
+        if let Some(source) = self.sources().get(video) {
+            source.state().rows = Some(rows);
+        }
+    }
+
     /// Reads videos to their ends if all of their frames have been read.
     ///
     /// # Errors
@@ -233,7 +243,8 @@ impl Videos {
         Ok(source)
     }
 
-    fn ffmpeg(&self) -> Result<Arc<Ffmpeg>, IoError> {
+    /// Finds the installed programs, once.
+    pub(super) fn ffmpeg(&self) -> Result<Arc<Ffmpeg>, IoError> {
         if let Some(ffmpeg) = self.ffmpeg.get() {
             return Ok(Arc::clone(ffmpeg));
         }
@@ -297,7 +308,7 @@ impl Source {
 
     /// Returns a frame; `None` if it is left out. Nobody waits for another frame to be asked for, so that no two threads can wait for
     /// each other.
-    fn frame(&self, number: u64, limits: &Limits) -> Result<Option<EncodedImage>, IoError> {
+    fn frame(&self, number: u64, limits: &Limits, pool: &FramePool) -> Result<Option<EncodedImage>, IoError> {
         if let Content::Live { pictures, .. } = &self.content {
             return lock(pictures).take(number).map(Some);
         }
@@ -312,7 +323,7 @@ impl Source {
         if let Some(failure) = &state.failure {
             return Err(IoError::Video(Box::new(failure.clone())));
         }
-        self.decoded(number, limits, &mut state).map_err(|error| {
+        self.decoded(number, (limits, pool), &mut state).map_err(|error| {
             // Whoever asks for this frame, or a later one, is told of the same fault.
             let failure = Shared(Arc::new(error));
             state.failure = Some(failure.clone());
@@ -321,7 +332,12 @@ impl Source {
     }
 
     /// Decodes up to a frame; `None` if it is left out.
-    fn decoded(&self, number: u64, limits: &Limits, state: &mut State) -> Result<Option<EncodedImage>, VideoError> {
+    fn decoded(
+        &self,
+        number: u64,
+        (limits, pool): (&Limits, &FramePool),
+        state: &mut State,
+    ) -> Result<Option<EncodedImage>, VideoError> {
         if state.reader.as_ref().is_none_or(|(_, next)| *next > number) {
             state.close();
             state.reader = Some(self.reader(number, state, limits)?);
@@ -329,7 +345,7 @@ impl Source {
         loop {
             let Some((reader, next)) = &mut state.reader else { return Err(self.without(number)) };
             let first = *next;
-            let Some((index, image)) = reader.next(&self.name, first)? else {
+            let Some((index, image)) = reader.next((&self.name, first), pool)? else {
                 return if self.damaged == Damaged::Skip { Ok(None) } else { Err(self.without(number)) };
             };
             *next = index + 1;
@@ -367,7 +383,9 @@ impl Source {
         let last = if state.is_expected { last } else { last.max(self.count.saturating_sub(1)) };
         let is_all = first == 0 && info.cut.is_none();
         let frames = (!is_all).then_some(first..=last);
-        let options = ReadOptions { frames, damaged: self.damaged, memory: limits.memory, ..ReadOptions::default() };
+        let rows = state.rows.clone().filter(|_| half.is_none());
+        let options =
+            ReadOptions { frames, rows, damaged: self.damaged, memory: limits.memory, ..ReadOptions::default() };
         let decoder = match half {
             Some(half) => Decoder::Pair(Box::new(PairedReader::open(ffmpeg, info, half, options)?)),
             None => Decoder::Film(Box::new(VideoReader::open(ffmpeg, info, options)?)),
@@ -386,7 +404,7 @@ impl Source {
         if let Some((reader, next)) = &mut state.reader
             && *next == self.count
         {
-            state.has_more = reader.next(&self.name, self.count)?.is_some();
+            state.has_more = reader.next((&self.name, self.count), &FramePool::default())?.is_some();
         }
         Ok(())
     }
@@ -421,11 +439,15 @@ fn more_than(announced: u64) -> String {
 
 impl Decoder {
     /// Returns the next frame with its number; `None` after the last. The number of a stream's is counted.
-    fn next(&mut self, name: &Path, number: u64) -> Result<Option<(u64, EncodedImage)>, VideoError> {
+    fn next(
+        &mut self,
+        (name, number): (&Path, u64),
+        pool: &FramePool,
+    ) -> Result<Option<(u64, EncodedImage)>, VideoError> {
         let told = name.display().to_string();
         Ok(match self {
-            Self::Film(reader) => aside(|| reader.next_frame(), &told)?.map(|frame| (frame.index, frame.image)),
-            Self::Pair(reader) => aside(|| reader.next_frame(), &told)?.map(|frame| (frame.index, frame.image)),
+            Self::Film(reader) => aside(|| reader.next_frame_in(pool), &told)?.map(|frame| (frame.index, frame.image)),
+            Self::Pair(reader) => aside(|| reader.next_frame_in(pool), &told)?.map(|frame| (frame.index, frame.image)),
             Self::Raw(reader) => reader.next_picture(&told)?.map(|image| (number, image)),
         })
     }
@@ -447,11 +469,6 @@ impl State {
 #[derive(Clone, Debug, Error)]
 #[error(transparent)]
 pub(super) struct Shared(pub(super) Arc<VideoError>);
-
-/// Locks a value that no panic leaves half changed.
-fn lock<T>(value: &Mutex<T>) -> MutexGuard<'_, T> {
-    value.lock().unwrap_or_else(PoisonError::into_inner)
-}
 
 /// Returns the number of frames that a file announces. Where only its duration tells, which may be rounded, its coded frames are
 /// counted.

@@ -67,6 +67,17 @@ impl Encoder {
         Self { channels, depth, transfer: transfer.clone(), quantizer }
     }
 
+    /// Returns the samples of a pixel, if they are red, green and blue of 8 bits.
+    pub fn rgb(&self, light: Rgba) -> Option<[u8; 3]> {
+        self.rgb_codes().map(|codes| codes.codes(light))
+    }
+
+    /// Returns the conversion to opaque pixels of 8 bits; `None` if samples are of another kind.
+    pub(crate) fn rgb_codes(&self) -> Option<RgbCodes<'_>> {
+        let is_rgb8 = self.channels == Channels::Rgb && self.depth == Depth::Eight;
+        self.quantizer.as_ref().filter(|_| is_rgb8).map(RgbCodes)
+    }
+
     /// Encodes an image.
     pub fn encode(&self, light: &Image<Rgba>, threads: Threads) -> EncodedImage {
         self.encode_in(light, threads, &FramePool::default())
@@ -124,6 +135,19 @@ impl Encoder {
         };
         let alpha = |pixel: Rgba| sample(pixel.finite().alpha());
         work.interleaved(grey, colour, alpha)
+    }
+}
+
+/// Conversion of light to opaque pixels of 8 bits.
+#[derive(Clone, Copy)]
+pub(crate) struct RgbCodes<'a>(&'a Quantizer);
+
+impl RgbCodes<'_> {
+    /// Returns the codes of light, whose alpha is ignored.
+    #[inline(always)]
+    pub(crate) fn codes(self, Rgba([red, green, blue, _]): Rgba) -> [u8; 3] {
+        let code = |light, channel| self.0.code(light, channel) as u8;
+        [code(red, ColourChannel::Red), code(green, ColourChannel::Green), code(blue, ColourChannel::Blue)]
     }
 }
 

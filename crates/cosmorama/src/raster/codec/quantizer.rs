@@ -15,6 +15,7 @@ impl Quantizer {
     }
 
     /// Returns the code of a light value: 0 for NaN and negative light, `last` for white and above.
+    #[inline]
     pub(crate) fn code(&self, light: f32, channel: ColourChannel) -> u16 {
         self.channels[channel.index().min(self.channels.len() - 1)].code(light)
     }
@@ -29,6 +30,8 @@ struct Thresholds {
     least: Vec<f32>,
     /// Number of codes that begin before each bucket; one more entry at the end.
     before: Vec<u16>,
+    /// Whether at most one code begins in each bucket, as with 8 bits.
+    is_sparse: bool,
 }
 
 impl Thresholds {
@@ -37,7 +40,7 @@ impl Thresholds {
         let least: Vec<f32> = (1..=last).map(boundary).collect();
         let greatest = least.last().copied().unwrap_or(0.0);
         let mut code = 0;
-        let before = (0..=bucket(greatest) + 1)
+        let before: Vec<u16> = (0..=bucket(greatest) + 1)
             .map(|bucket| {
                 let start = f32::from_bits((bucket << SHIFT) as u32);
                 while code < least.len() && least[code] < start {
@@ -46,18 +49,23 @@ impl Thresholds {
                 code as u16
             })
             .collect();
-        Self { least, before }
+        let is_sparse = before.windows(2).all(|pair| pair[1] - pair[0] <= 1);
+        Self { least, before, is_sparse }
     }
 
+    #[inline(always)]
     fn code(&self, light: f32) -> u16 {
         if light.is_nan() || light <= 0.0 {
             return 0;
         }
-        let bucket = bucket(light);
-        let (Some(&from), Some(&to)) = (self.before.get(bucket), self.before.get(bucket + 1)) else {
-            return self.least.len() as u16;
-        };
-        let (from, to) = (usize::from(from), usize::from(to));
+        // The greatest code begins in the last bucket.
+        let bucket = bucket(light).min(self.before.len() - 2);
+        let from = usize::from(self.before[bucket]);
+        if self.is_sparse {
+            // Without a branch, since nobody can guess it.
+            return self.before[bucket] + u16::from(self.least[from] <= light);
+        }
+        let to = usize::from(self.before[bucket + 1]);
         (from + self.least[from..to].partition_point(|&least| least <= light)) as u16
     }
 }

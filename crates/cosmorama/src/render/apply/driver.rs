@@ -1,6 +1,8 @@
 //! Computation of a band's pixels, in floats or integers: group by group, in several mirror images at once, window by
 //! window.
 
+use std::ops::Range;
+
 use bytemuck::Zeroable;
 use fearless_simd::{Level, Simd, dispatch};
 
@@ -20,19 +22,13 @@ use crate::render::plan::window_format::{Format, Header, Place};
 use crate::render::plan::window_order::window_count;
 use crate::render::scan::tile::SIDE;
 
-/// Arithmetic in one type of number, which sums windows of texels and makes pixels of the sums.
-pub(crate) trait WindowArithmetic: Palette<Pixel: Zeroable + Send + Sync> + Sync {
-    /// Format of windows' weights.
-    type Format: Format;
+/// Sums of windows of texels in one type of number, whatever pixels are made of them.
+pub(crate) trait WindowSums {
+    type Sample: Copy;
     /// Light of a window.
     type Light: Copy + Default;
     /// Working memory that the windows of a group share.
     type Shared: Default;
-    /// Working memory of windows that are applied as soon as they are weighed.
-    type Fresh: Default;
-
-    /// Returns the pixel that is shown where the target sees nothing.
-    fn background(&self) -> Self::Pixel;
 
     /// Clears what the windows of the last group shared.
     fn begin(shared: &mut Self::Shared);
@@ -45,6 +41,19 @@ pub(crate) trait WindowArithmetic: Palette<Pixel: Zeroable + Send + Sync> + Sync
         shared: &mut Self::Shared,
         light: &mut [Self::Light],
     ) -> usize;
+}
+
+/// Arithmetic in one type of number, which makes pixels of the sums of windows.
+pub(crate) trait WindowArithmetic: Palette<Pixel: Zeroable + Send + Sync> + Sync {
+    /// Format of windows' weights.
+    type Format: Format;
+    /// Sums of windows.
+    type Sums: WindowSums<Sample = Self::Sample>;
+    /// Working memory of windows that are applied as soon as they are weighed.
+    type Fresh: Default;
+
+    /// Returns the pixel that is shown where the target sees nothing.
+    fn background(&self) -> Self::Pixel;
 
     /// Converts the light of a pass to pixels, and writes them.
     fn put<S: Simd>(
@@ -52,7 +61,7 @@ pub(crate) trait WindowArithmetic: Palette<Pixel: Zeroable + Send + Sync> + Sync
         simd: S,
         pass: &Pass,
         ways: &Ways,
-        light: &GroupLight<Self::Light>,
+        light: &GroupLight<LightOf<Self>>,
         canvas: &mut Canvas<Self::Pixel>,
     );
 
@@ -65,6 +74,9 @@ pub(crate) trait WindowArithmetic: Palette<Pixel: Zeroable + Send + Sync> + Sync
         canvas: &mut Canvas<Self::Pixel>,
     ) -> bool;
 }
+
+/// Light of a window.
+pub(crate) type LightOf<A> = <<A as WindowArithmetic>::Sums as WindowSums>::Light;
 
 /// Windows that have just been weighed, in a picture without mirror images.
 pub(crate) struct Fresh<'a, T> {
@@ -152,8 +164,8 @@ impl<A: WindowArithmetic> BandFilter<'_, A> {
         }
         let texels = self.arithmetic.texels();
         let views = ViewTexels::all(self.mirrors, texels.as_flattened());
-        let mut light: GroupLight<A::Light> = [[[A::Light::default(); TOGETHER]; SIDE]; SIDE];
-        let mut shared = A::Shared::default();
+        let mut light: GroupLight<LightOf<A>> = [[[LightOf::<A>::default(); TOGETHER]; SIDE]; SIDE];
+        let mut shared = <A::Sums as WindowSums>::Shared::default();
         let mut after = 0;
         for (pass, next) in passes(band.groups(), self.mirrors.images.len()) {
             if let Some(next) = next {
@@ -165,53 +177,51 @@ impl<A: WindowArithmetic> BandFilter<'_, A> {
             }
             let run = &pass.group[0];
             let (view, numbers) = (usize::from(run.view), &band.weights.numbers[run.weights as usize..]);
-            self.weigh(simd, &pass, (&views[view], &mut shared), numbers, &mut light);
+            let group = Group { group: pass.group, numbers, is_bounded: self.anti_ringing };
+            weigh::<S, A::Sums>(simd, (group, &pass.ways), (&views[view], &mut shared), &mut light);
             self.arithmetic.put(simd, &pass, self.mirrors.ways(view), &light, canvas);
         }
     }
+}
 
-    /// Sums the light of a pass's windows. It is compiled separately: in one function with the rest of a band, its loop
-    /// would lack registers.
-    #[inline(never)]
-    fn weigh<S: Simd>(
-        &self,
-        simd: S,
-        Pass { group, ways }: &Pass,
-        (texels, shared): (&ViewTexels<A::Sample>, &mut A::Shared),
-        numbers: &[u32],
-        light: &mut GroupLight<A::Light>,
-    ) {
-        let group = Group { group, numbers, is_bounded: self.anti_ringing };
-        // A function for each number of mirror images: all in one would take the compiler minutes.
-        match texels {
-            ViewTexels::Turned([_, turned]) if ways.start > 0 => simd.vectorize(
-                #[inline(always)]
-                || group.weigh::<S, A, 4, 2, true>(simd, (turned, shared), 0, light),
-            ),
-            ViewTexels::Four(texels) | ViewTexels::Turned([texels, _]) => simd.vectorize(
-                #[inline(always)]
-                || group.weigh::<S, A, 4, 2, false>(simd, (texels, shared), 0, light),
-            ),
-            ViewTexels::Eight(texels) => simd.vectorize(
-                #[inline(always)]
-                || group.weigh::<S, A, 4, 2, false>(simd, (&texels[ways.start / TOGETHER], shared), 0, light),
-            ),
-            ViewTexels::Two(texels) => simd.vectorize(
-                #[inline(always)]
-                || group.weigh::<S, A, 2, 1, false>(simd, (texels, shared), 0, light),
-            ),
-            ViewTexels::OneByOne { forward, reversed } => simd.vectorize(
-                #[inline(always)]
-                || {
-                    for (image, texels) in forward.iter().enumerate() {
-                        group.weigh::<S, A, 1, 0, false>(simd, (texels, shared), image, light);
-                    }
-                    for (image, texels) in (forward.len()..).zip(reversed) {
-                        group.weigh::<S, A, 1, 1, false>(simd, (texels, shared), image, light);
-                    }
-                },
-            ),
-        }
+/// Sums the light of a pass's windows. It is compiled separately: in one function with the rest of a band, its loop would lack
+/// registers.
+#[inline(never)]
+fn weigh<S: Simd, W: WindowSums>(
+    simd: S,
+    (group, ways): (Group, &Range<usize>),
+    (texels, shared): (&ViewTexels<W::Sample>, &mut W::Shared),
+    light: &mut GroupLight<W::Light>,
+) {
+    // A function for each number of mirror images: all in one would take the compiler minutes.
+    match texels {
+        ViewTexels::Turned([_, turned]) if ways.start > 0 => simd.vectorize(
+            #[inline(always)]
+            || group.weigh::<S, W, 4, 2, true>(simd, (turned, shared), 0, light),
+        ),
+        ViewTexels::Four(texels) | ViewTexels::Turned([texels, _]) => simd.vectorize(
+            #[inline(always)]
+            || group.weigh::<S, W, 4, 2, false>(simd, (texels, shared), 0, light),
+        ),
+        ViewTexels::Eight(texels) => simd.vectorize(
+            #[inline(always)]
+            || group.weigh::<S, W, 4, 2, false>(simd, (&texels[ways.start / TOGETHER], shared), 0, light),
+        ),
+        ViewTexels::Two(texels) => simd.vectorize(
+            #[inline(always)]
+            || group.weigh::<S, W, 2, 1, false>(simd, (texels, shared), 0, light),
+        ),
+        ViewTexels::OneByOne { forward, reversed } => simd.vectorize(
+            #[inline(always)]
+            || {
+                for (image, texels) in forward.iter().enumerate() {
+                    group.weigh::<S, W, 1, 0, false>(simd, (texels, shared), image, light);
+                }
+                for (image, texels) in (forward.len()..).zip(reversed) {
+                    group.weigh::<S, W, 1, 1, false>(simd, (texels, shared), image, light);
+                }
+            },
+        ),
     }
 }
 
@@ -228,23 +238,23 @@ impl Group<'_> {
     /// Sums the light in N mirror images, from this one on. In the last R, texels run from right to left. If `TURNED`,
     /// rows are columns in all of them.
     #[inline(always)]
-    fn weigh<S: Mirrored<N>, A: WindowArithmetic, const N: usize, const R: usize, const TURNED: bool>(
+    fn weigh<S: Mirrored<N>, W: WindowSums, const N: usize, const R: usize, const TURNED: bool>(
         self,
         simd: S,
-        (texels, shared): (&Texels<A::Sample, N, R>, &mut A::Shared),
+        (texels, shared): (&Texels<W::Sample, N, R>, &mut W::Shared),
         image: usize,
-        light: &mut GroupLight<A::Light>,
+        light: &mut GroupLight<W::Light>,
     ) {
         let Self { group, mut numbers, is_bounded } = self;
         let mut count = window_count(group);
-        A::begin(shared);
+        W::begin(shared);
         while count > 0 {
             prefetch_weights(numbers);
             let Place { run, lane } = Header(numbers[0]).place();
             let light = &mut light[run][lane][image..][..N];
             let run = &group[run];
             let window = Window { simd, texels, group, run, first: run.first(lane), numbers, is_bounded };
-            let length = A::weigh::<S, N, R, TURNED>(window, shared, light);
+            let length = W::weigh::<S, N, R, TURNED>(window, shared, light);
             (numbers, count) = (&numbers[length..], count - 1);
         }
     }

@@ -21,8 +21,8 @@ use rayon::prelude::*;
 use crate::render::apply::driver::{BandFilter, WindowArithmetic};
 use crate::render::apply::fixed::FixedArithmetic;
 use crate::render::apply::fixed::weights::FixedFormat;
-use crate::render::apply::float::FloatArithmetic;
 use crate::render::apply::float::weights::FloatFormat;
+use crate::render::apply::float::{FloatArithmetic, Uncoded};
 use crate::render::apply::tile_writer::Canvas;
 use band::Band;
 use recorder::{Maker, Outlet, Painter, Recorder};
@@ -40,7 +40,7 @@ use crate::camera::PixelRect;
 use crate::filter::FilterKind;
 use crate::filter::kernel::KernelTable;
 use crate::filter::taps::Taps;
-use crate::raster::{FixedCodec, FixedLight, Image, Rgba};
+use crate::raster::{Encoder, FixedCodec, FixedLight, Image, Rgba};
 
 /// Number of rows of a target that are processed together, in tiles: those of a few patches.
 const BAND: usize = 4 * SIDE;
@@ -133,10 +133,30 @@ impl Plan {
     /// As [`Plan::apply`], or if the image is not of the target's size.
     pub fn apply_into(&self, texels: &[Rgba], background: Rgba, image: &mut Image<Rgba>) {
         match &self.0 {
-            Geometry::Float(compiled) => compiled.fill(FloatArithmetic { texels, background }, Level::new(), image),
+            Geometry::Float(compiled) => {
+                compiled.fill(FloatArithmetic { texels, background, pixels: Uncoded }, Level::new(), image)
+            }
             Geometry::Pyramid(plan) => plan.apply_into(texels, background, image),
             Geometry::Fixed(_) => panic!("a plan of integers takes light of 15 bits"),
         }
+    }
+
+    /// Returns whether it makes the samples of an encoder at once: it is one of floats, not of a pyramid, and the samples are opaque
+    /// pixels of 8 bits.
+    pub fn encodes(&self, encoder: &Encoder) -> bool {
+        matches!(self.0, Geometry::Float(_)) && encoder.rgb_codes().is_some()
+    }
+
+    /// Makes the samples of one frame in front of a background in an existing image: those that the encoder makes of
+    /// [`apply_over`](Self::apply_over), without a picture of light, five times as large, between.
+    ///
+    /// # Panics
+    /// As [`Plan::apply_into`], or if [`encodes`](Self::encodes) says that it cannot.
+    pub fn apply_encoded_into(&self, texels: &[Rgba], background: Rgba, encoder: &Encoder, image: &mut Image<[u8; 3]>) {
+        let (Geometry::Float(compiled), Some(pixels)) = (&self.0, encoder.rgb_codes()) else {
+            panic!("a plan of floats and samples of 8 bits")
+        };
+        compiled.fill(FloatArithmetic { texels, background, pixels }, Level::new(), image);
     }
 
     /// Makes the code values of one frame by a plan of integers. `light` holds all the world's texels.

@@ -6,7 +6,7 @@ pub(crate) mod level_map;
 
 use rayon::prelude::*;
 
-use super::apply::float::FloatArithmetic;
+use super::apply::float::{FloatArithmetic, Uncoded};
 use super::batch::window::Level as Instructions;
 use super::progress::Watch;
 use super::pyramid::level_map::LevelMap;
@@ -121,7 +121,7 @@ pub(crate) fn bytes(resampler: &Resampler) -> usize {
 pub(crate) fn render(resampler: &Resampler, texels: &[Rgba], watch: Watch) -> Image<Rgba> {
     let (pyramid, background) = (Pyramid::new(resampler), Rgba::TRANSPARENT);
     if pyramid.levels.is_empty() {
-        let light = FloatArithmetic { texels, background };
+        let light = FloatArithmetic { texels, background, pixels: Uncoded };
         return plan::render((&pyramid.level(0), None), light, Instructions::new(), watch);
     }
     let halvings: Vec<&Halving> = pyramid.levels.iter().map(|(_, halving)| halving).collect();
@@ -131,7 +131,8 @@ pub(crate) fn render(resampler: &Resampler, texels: &[Rgba], watch: Watch) -> Im
             return None;
         }
         let (resampler, wanted) = (pyramid.level(level), pyramid.wanted(level)?);
-        let (light, task) = (FloatArithmetic { texels, background }, watch.task(level, halvings.len() + 1));
+        let (light, task) =
+            (FloatArithmetic { texels, background, pixels: Uncoded }, watch.task(level, halvings.len() + 1));
         Some(plan::render((&resampler, Some(&wanted)), light, Instructions::new(), task))
     });
     image

@@ -17,7 +17,7 @@ pub(crate) mod window;
 
 use fearless_simd::{Simd, f32x4, i32x4, prelude::*};
 
-use super::driver::{Fresh, Window, WindowArithmetic};
+use super::driver::{Fresh, Window, WindowArithmetic, WindowSums};
 use super::fixed::at_once::FreshWeights;
 use super::fixed::blocks::Mirrored;
 #[cfg(target_arch = "x86_64")]
@@ -38,15 +38,13 @@ pub(crate) struct FixedArithmetic<'a> {
     pub(crate) codec: &'a FixedCodec,
 }
 
-impl WindowArithmetic for FixedArithmetic<'_> {
-    type Format = FixedFormat;
+/// Sums of integers.
+pub(crate) struct FixedSums;
+
+impl WindowSums for FixedSums {
+    type Sample = i16;
     type Light = [i32; 4];
     type Shared = PatchTexels;
-    type Fresh = FreshWeights;
-
-    fn background(&self) -> [u8; 3] {
-        self.codec.background()
-    }
 
     #[inline(always)]
     fn begin(patch: &mut PatchTexels) {
@@ -86,6 +84,16 @@ impl WindowArithmetic for FixedArithmetic<'_> {
         };
         average.store_slice(light.as_flattened_mut());
         length
+    }
+}
+
+impl WindowArithmetic for FixedArithmetic<'_> {
+    type Format = FixedFormat;
+    type Sums = FixedSums;
+    type Fresh = FreshWeights;
+
+    fn background(&self) -> [u8; 3] {
+        self.codec.background()
     }
 
     /// Writes the pixels. It is compiled apart from the sums, whose loop would otherwise lack registers.

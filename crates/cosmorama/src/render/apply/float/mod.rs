@@ -5,34 +5,65 @@ pub(crate) mod turned;
 pub(crate) mod weights;
 pub(crate) mod window;
 
+use bytemuck::{NoUninit, Zeroable};
 use fearless_simd::{Simd, f32x4, prelude::*};
 
-use super::driver::{Fresh, Window, WindowArithmetic};
+use super::driver::{Fresh, Window, WindowArithmetic, WindowSums};
 use super::fixed::blocks::Mirrored;
 use super::float::weights::FloatFormat;
 use super::tap_lists::Palette;
 use super::tile_writer::{Canvas, Develop, GroupLight};
 use crate::raster::Rgba;
+use crate::raster::codec::encode::RgbCodes;
 use crate::render::plan::symmetry::Ways;
 use crate::render::plan::traversal::Pass;
 use crate::render::scan::tile::SIDE;
 
 /// Arithmetic in floats: light of any range, over a background.
 #[derive(Clone, Copy)]
-pub(crate) struct FloatArithmetic<'a> {
+pub(crate) struct FloatArithmetic<'a, P = Uncoded> {
     pub(crate) texels: &'a [Rgba],
     pub(crate) background: Rgba,
+    pub(crate) pixels: P,
 }
 
-impl WindowArithmetic for FloatArithmetic<'_> {
-    type Format = FloatFormat;
+/// Conversion of light, in front of the background, to pixels.
+pub(crate) trait LightPixels: Copy + Sync {
+    type Pixel: NoUninit + Zeroable + Send + Sync;
+
+    /// Returns the pixel of some light.
+    fn of(self, light: Rgba) -> Self::Pixel;
+}
+
+/// Pixels that are light themselves.
+#[derive(Clone, Copy)]
+pub(crate) struct Uncoded;
+
+impl LightPixels for Uncoded {
+    type Pixel = Rgba;
+
+    #[inline(always)]
+    fn of(self, light: Rgba) -> Rgba {
+        light
+    }
+}
+
+impl LightPixels for RgbCodes<'_> {
+    type Pixel = [u8; 3];
+
+    #[inline(always)]
+    fn of(self, light: Rgba) -> [u8; 3] {
+        self.codes(light)
+    }
+}
+
+/// Sums of floats.
+pub(crate) struct FloatSums;
+
+impl WindowSums for FloatSums {
+    type Sample = f32;
     type Light = Rgba;
     type Shared = ();
-    type Fresh = ();
-
-    fn background(&self) -> Rgba {
-        self.background
-    }
 
     fn begin((): &mut ()) {}
 
@@ -56,30 +87,40 @@ impl WindowArithmetic for FloatArithmetic<'_> {
         }
         length
     }
+}
+
+impl<P: LightPixels> WindowArithmetic for FloatArithmetic<'_, P> {
+    type Format = FloatFormat;
+    type Sums = FloatSums;
+    type Fresh = ();
+
+    fn background(&self) -> P::Pixel {
+        self.pixels.of(self.background)
+    }
 
     #[inline(always)]
-    fn put<S: Simd>(&self, _: S, pass: &Pass, ways: &Ways, light: &GroupLight<Rgba>, canvas: &mut Canvas<Rgba>) {
+    fn put<S: Simd>(&self, _: S, pass: &Pass, ways: &Ways, light: &GroupLight<Rgba>, canvas: &mut Canvas<P::Pixel>) {
         canvas.put(pass, ways, light, self);
     }
 
     #[inline(always)]
-    fn put_at_once<S: Simd>(&self, _: S, (): &mut (), _: &Fresh<f32>, _: &mut Canvas<Rgba>) -> bool {
+    fn put_at_once<S: Simd>(&self, _: S, (): &mut (), _: &Fresh<f32>, _: &mut Canvas<P::Pixel>) -> bool {
         false
     }
 }
 
-impl Develop for FloatArithmetic<'_> {
+impl<P: LightPixels> Develop for FloatArithmetic<'_, P> {
     type Light = Rgba;
-    type Pixel = Rgba;
+    type Pixel = P::Pixel;
 
     #[inline(always)]
-    fn one(&self, light: Rgba) -> Rgba {
-        if self.background == Rgba::TRANSPARENT { light } else { light.over(self.background) }
+    fn one(&self, light: Rgba) -> P::Pixel {
+        self.pixels.of(if self.background == Rgba::TRANSPARENT { light } else { light.over(self.background) })
     }
 
     #[inline(always)]
-    fn eight(&self, light: [&Rgba; SIDE]) -> [Rgba; SIDE] {
-        let mut pixels = [Rgba::TRANSPARENT; SIDE];
+    fn eight(&self, light: [&Rgba; SIDE]) -> [P::Pixel; SIDE] {
+        let mut pixels = [P::Pixel::zeroed(); SIDE];
         for (pixel, light) in pixels.iter_mut().zip(light) {
             *pixel = self.one(*light);
         }
@@ -87,8 +128,8 @@ impl Develop for FloatArithmetic<'_> {
     }
 }
 
-impl Palette for FloatArithmetic<'_> {
-    type Pixel = Rgba;
+impl<P: LightPixels> Palette for FloatArithmetic<'_, P> {
+    type Pixel = P::Pixel;
     type Sample = f32;
 
     #[inline(always)]
@@ -101,7 +142,7 @@ impl Palette for FloatArithmetic<'_> {
         f32x4::load_array_ref(simd, &self.texels[texel as usize].0)
     }
 
-    fn pixel(&self, light: Rgba, coverage: f32) -> Rgba {
-        (light * coverage).over(self.background)
+    fn pixel(&self, light: Rgba, coverage: f32) -> P::Pixel {
+        self.pixels.of((light * coverage).over(self.background))
     }
 }

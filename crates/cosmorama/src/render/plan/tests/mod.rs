@@ -14,7 +14,7 @@ use crate::camera::{FieldStop, View};
 use crate::filter::taps::{Tap, TapList, average};
 use crate::filter::{FilterKind, FilterSettings};
 use crate::projection::ProjectionKind;
-use crate::raster::{ColourChannel, RowLayout, Transfer};
+use crate::raster::{Channels, ColourChannel, Depth, EncodedImage, Encoder, RowLayout, Threads, Transfer};
 use crate::render::batch::window::Windows;
 use crate::sphere::{CubeFace, Orientation};
 use crate::world::{Blend, World, WorldView};
@@ -124,7 +124,7 @@ fn what_mirrors_show_is_what_would_be_computed() {
         let mut expected = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
         let texels = floats(&light);
         let (level, background) = (Level::new(), Rgba::TRANSPARENT);
-        let arithmetic = FloatArithmetic { texels: &texels, background };
+        let arithmetic = FloatArithmetic { texels: &texels, background, pixels: Uncoded };
         let filter = BandFilter { level, mirrors: &alone, anti_ringing: true, arithmetic };
         each_band((&resampler, None), &alone, (expected.pixels_mut(), background), (level, Watch::NONE), &filter);
         let made = resampler.render(&texels);
@@ -133,6 +133,25 @@ fn what_mirrors_show_is_what_would_be_computed() {
             // slightly different weights.
             assert!((0..4).all(|c| (a.0[c] - b.0[c]).abs() < 5e-3), "{a:?} is not {b:?}, {:?}", target.projection);
         }
+    }
+}
+
+#[test]
+fn samples_that_are_made_at_once_are_those_of_the_light() {
+    let encoder = |channels, depth, transfer| Encoder::new(channels, depth, transfer);
+    for (world, target, _) in conversions() {
+        let (texels, resampler) = (floats(&light(&world)), resampler(&world, &target));
+        let plan = resampler.plan(Arithmetic::Float).expect("a plan");
+        for (background, transfer) in [(Rgba::BLACK, Transfer::Bt1886), (Rgba::opaque(0.2, 0.5, 0.9), Transfer::Srgb)] {
+            let encoder = encoder(Channels::Rgb, Depth::Eight, &transfer);
+            assert!(plan.encodes(&encoder));
+            let mut image = Image::filled(target.width(), target.height(), [9; 3]);
+            plan.apply_encoded_into(&texels, background, &encoder, &mut image);
+            let expected = encoder.encode(&plan.apply_over(&texels, background), Threads::All);
+            assert!(EncodedImage::of_codes(image) == expected, "{:?}", target.projection);
+        }
+        assert!(!plan.encodes(&encoder(Channels::Rgba, Depth::Eight, &Transfer::Srgb)));
+        assert!(!plan.encodes(&encoder(Channels::Rgb, Depth::Sixteen, &Transfer::Srgb)));
     }
 }
 
@@ -219,7 +238,7 @@ fn windows_of_floats_make_what_their_texels_make_one_by_one() {
             let mut expected = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
             let (mirrors, level) = (Mirrors::of::<NoWindows>(&resampler), Level::new());
             let background = Rgba::TRANSPARENT;
-            let arithmetic = FloatArithmetic { texels: &texels, background };
+            let arithmetic = FloatArithmetic { texels: &texels, background, pixels: Uncoded };
             let mut one_by_one = expected.clone();
             let pixels = (one_by_one.pixels_mut(), background);
             let maker = by_bands(|band: &Band<NoWindows>, canvas| {
@@ -260,7 +279,7 @@ fn all_levels_of_instructions_make_the_same_pixels() {
         let made = |level| {
             let mut codes = Image::filled(target.width(), target.height(), codec.background());
             plan.fill(FixedArithmetic { light: &light, codec: &codec }, level, &mut codes);
-            let arithmetic = FloatArithmetic { texels: &texels, background: Rgba::TRANSPARENT };
+            let arithmetic = FloatArithmetic { texels: &texels, background: Rgba::TRANSPARENT, pixels: Uncoded };
             (render((&resampler, None), arithmetic, level, Watch::NONE), codes)
         };
         let mut all = crate::filter::rim::simd_levels::levels().into_iter().map(made);

@@ -25,7 +25,7 @@ fn texels_have_one_light_whoever_asks() {
     let texels = floats(&light);
     let codec = FixedCodec::new(&Transfer::Srgb, Rgba::BLACK).expect("sRGB has 8 bits");
     let fixed = FixedArithmetic { light: &light, codec: &codec };
-    let float = FloatArithmetic { texels: &texels, background: Rgba::TRANSPARENT };
+    let float = FloatArithmetic { texels: &texels, background: Rgba::TRANSPARENT, pixels: Uncoded };
     let pitch = FixedLight::pitch(size[0]);
     for (at, expected) in texels.iter().enumerate() {
         assert!(lights(&float, at as u32).all(|light| light == expected.0), "{expected:?}");
