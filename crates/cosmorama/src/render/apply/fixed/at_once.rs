@@ -8,7 +8,7 @@ use fearless_simd::{Simd, i16x8, i16x16, i16x32, i32x4, i32x16, prelude::*, u8x6
 
 use super::quantize::{Rounding, scale, turned};
 use crate::render::apply::lane_shapes::turned_bits;
-use crate::render::apply::texels::{Strips, Texels};
+use crate::render::apply::texels::{Strips, Texels, prefetch};
 use crate::render::batch::window::Windows;
 use crate::render::scan::tile::SIDE;
 
@@ -58,13 +58,27 @@ static BEYOND: [[i16; HALF]; 16] = {
 impl FreshWeights {
     /// Rounds weights; false if the windows or their weights are too large, or too near the right edge of their view.
     #[inline(always)]
-    pub(crate) fn take<S: Simd>(&mut self, simd: S, lanes: u8, windows: &Windows) -> bool {
+    pub(crate) fn take<S: Simd>(
+        &mut self,
+        simd: S,
+        texels: &Texels<i16, 1, 0>,
+        (lanes, windows): (u8, &Windows),
+    ) -> bool {
         let (width, height) = (windows.width(), windows.height());
         let Some(bits) = scale(windows.size()).filter(|_| width.max(height) <= SIDE) else { return false };
         let end = windows.columns_within().end;
         for lane in 0..SIDE {
             if lanes >> lane & 1 == 1 && windows.corner(lane).is_none_or(|[column, _]| column + SIDE as u32 > end) {
                 return false;
+            }
+        }
+        // Texels come while weights are rounded. Rows of three windows lie on nearly all cache lines of the eight.
+        for first in [0, SIDE / 2, SIDE - 1].into_iter().filter_map(|lane| windows.corner(lane)) {
+            if first[0] + SIDE as u32 <= end {
+                for [row] in texels.strips::<SIDE, ROW>(first, height) {
+                    prefetch(row, 0);
+                    prefetch(row, ROW as u32 - 1);
+                }
             }
         }
         let mut rounding = Rounding::new(simd, bits);

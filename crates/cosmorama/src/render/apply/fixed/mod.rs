@@ -129,7 +129,7 @@ impl WindowArithmetic for FixedArithmetic<'_> {
         Fresh { texels, windows, pixel, lanes, is_bounded }: &Fresh<i16>,
         canvas: &mut Canvas<[u8; 3]>,
     ) -> bool {
-        if !weights.take(simd, *lanes, windows) {
+        if !weights.take(simd, texels, (*lanes, windows)) {
             return false;
         }
         let light = weights.light(simd, texels, (*lanes, windows), *is_bounded);
