@@ -1,5 +1,5 @@
-//! Frames of 8 bits with a quarter of the chroma samples, made RGB in integers: as much work as ffmpeg's own exact conversion in a tenth
-//! of its time.
+//! Frames of 8 bits with a quarter of the chroma samples, made RGB in integers: cubics through the samples as by ffmpeg's own exact
+//! conversion, in a fifth of its time.
 
 use fearless_simd::{Level, dispatch};
 use rayon::prelude::*;
@@ -213,8 +213,8 @@ fn mix_columns(narrow: &[i16], even: Between, odd: Between, into: &mut [i16]) {
     let count = pairs.len();
     let (even_at, odd_at) = (&narrow[even.begin()..], &narrow[odd.begin()..]);
     let (even_at, odd_at) = (&even_at[..count + 3], &odd_at[..count + 3]);
-    for k in 0..count {
-        pairs[k] = [even.step(even_at, k), odd.step(odd_at, k)];
+    for (k, pair) in pairs.iter_mut().enumerate() {
+        *pair = [even.step(even_at, k), odd.step(odd_at, k)];
     }
 }
 

@@ -190,8 +190,8 @@ mod tests {
 
     #[test]
     fn rows_lie_beside_or_below_each_other() {
-        let (one, other) = ([1, 2, 3, 4], [5, 6, 7, 8]);
-        assert_eq!(both(&one, &other, (2, HalfPlace::Beside)), [1, 2, 5, 6, 3, 4, 7, 8]);
-        assert_eq!(both(&one, &other, (2, HalfPlace::Below)), [1, 2, 3, 4, 5, 6, 7, 8]);
+        let (halves, pool) = ((&[1_u8, 2, 3, 4][..], &[5, 6, 7, 8][..]), FramePool::default());
+        assert_eq!(both(halves, (2, HalfPlace::Beside), &pool), [1, 2, 5, 6, 3, 4, 7, 8]);
+        assert_eq!(both(halves, (2, HalfPlace::Below), &pool), [1, 2, 3, 4, 5, 6, 7, 8]);
     }
 }

@@ -127,7 +127,7 @@ fn rows_that_nothing_shows_are_not_missed() {
         return;
     }
     let bench = Bench::new();
-    let pictures = ["-f", "lavfi", "-i", "testsrc2=size=64x38:rate=25", "-frames:v", "3", "-pix_fmt", "yuv420p"];
+    let pictures = ["-f", "lavfi", "-i", "testsrc2=size=76x38:rate=25", "-frames:v", "3", "-pix_fmt", "yuv420p"];
     ffmpeg(&bench, &[&pictures[..], &["-c:v", "ffv1", "film.mkv"]].concat());
     for (folder, pitch) in [("up", "0"), ("down", "-150"), ("level", "-80")] {
         let to = ["--from", "equirect", "--to", "fulldome", "--pitch", pitch, "--size", "32"];

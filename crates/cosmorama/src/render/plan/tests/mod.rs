@@ -138,20 +138,19 @@ fn what_mirrors_show_is_what_would_be_computed() {
 
 #[test]
 fn samples_that_are_made_at_once_are_those_of_the_light() {
-    let encoder = |channels, depth, transfer| Encoder::new(channels, depth, transfer);
     for (world, target, _) in conversions() {
         let (texels, resampler) = (floats(&light(&world)), resampler(&world, &target));
         let plan = resampler.plan(Arithmetic::Float).expect("a plan");
         for (background, transfer) in [(Rgba::BLACK, Transfer::Bt1886), (Rgba::opaque(0.2, 0.5, 0.9), Transfer::Srgb)] {
-            let encoder = encoder(Channels::Rgb, Depth::Eight, &transfer);
+            let encoder = Encoder::new(Channels::Rgb, Depth::Eight, &transfer);
             assert!(plan.encodes(&encoder));
             let mut image = Image::filled(target.width(), target.height(), [9; 3]);
             plan.apply_encoded_into(&texels, background, &encoder, &mut image);
             let expected = encoder.encode(&plan.apply_over(&texels, background), Threads::All);
             assert!(EncodedImage::of_codes(image) == expected, "{:?}", target.projection);
         }
-        assert!(!plan.encodes(&encoder(Channels::Rgba, Depth::Eight, &Transfer::Srgb)));
-        assert!(!plan.encodes(&encoder(Channels::Rgb, Depth::Sixteen, &Transfer::Srgb)));
+        assert!(!plan.encodes(&Encoder::new(Channels::Rgba, Depth::Eight, &Transfer::Srgb)));
+        assert!(!plan.encodes(&Encoder::new(Channels::Rgb, Depth::Sixteen, &Transfer::Srgb)));
     }
 }
 
