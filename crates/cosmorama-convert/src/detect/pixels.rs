@@ -7,13 +7,13 @@ use cosmorama::circle;
 use cosmorama::circle::{Circle, Found};
 use cosmorama::layout::{Arrangement, CubeLayout, LayoutKind};
 use cosmorama::raster::{EncodedImage, FramePool, Image, Rgba, Samples, Transfer, Uniform};
-use cosmorama_io::{Choice, Header, ImageFile, IoError, Limits, read_chosen};
+use cosmorama_io::{Choice, Header, ImageFile, IoError, Limits};
 use rayon::prelude::*;
 
 use crate::detect::oval::is_oval;
 use crate::detect::{Circles, Continuity, Twins, cross_variants, seams};
 use crate::diagnostic::{Code, ConvertError, Result, failed_as};
-use crate::source::{DecodedPicture, Files, MemoryBudget, light_bytes, probe, read};
+use crate::source::{DecodedPicture, Files, MemoryBudget, light_bytes, probe, read, read_choice};
 
 /// Size, in bytes, above which an image is not decoded for detection only.
 const MOST_BYTES: u64 = 1 << 30;
@@ -58,7 +58,7 @@ pub fn damage_of(files: &dyn Files, path: &Path) -> Option<String> {
     let choice = Choice { without_picture: true, ..files.choice() };
     let limits = Limits::memory(MemoryBudget::new(None).bytes);
     let memory = (&limits, &FramePool::default());
-    match files.open(path).and_then(|source| read_chosen(source, path, memory, &choice)) {
+    match read_choice(files, path, memory, &choice) {
         Ok(_) | Err(IoError::TooLarge { .. }) => None,
         Err(error) => Some(error.to_string()),
     }

@@ -240,10 +240,23 @@ pub fn read(files: &dyn Files, path: &Path, limits: &Limits) -> Result<ImageFile
 /// # Errors
 /// As [`read`].
 pub(crate) fn read_in(files: &dyn Files, path: &Path, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
-    if let Some((name, videos)) = frame(files, path) {
-        return videos.picture(&name, limits, pool);
+    read_choice(files, path, (limits, pool), &files.choice())
+}
+
+/// Reads the parts and channels of a picture that are chosen; of a frame of a video, all.
+///
+/// # Errors
+/// As [`read`].
+pub(crate) fn read_choice(
+    files: &dyn Files,
+    path: &Path,
+    (limits, pool): (&Limits, &FramePool),
+    choice: &Choice,
+) -> Result<ImageFile, IoError> {
+    match frame(files, path) {
+        Some((name, videos)) => videos.picture(&name, limits, pool),
+        None => read_chosen(files.open(path)?, path, (limits, pool), choice),
     }
-    read_chosen(files.open(path)?, path, (limits, pool), &files.choice())
 }
 
 /// Returns the frame of a video that a name in place of a file's means, with the videos that are read.

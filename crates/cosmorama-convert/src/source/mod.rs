@@ -20,7 +20,7 @@ pub use system_memory::peak_bytes;
 pub use view_files::ViewFiles;
 pub use wanted_frames::existing as existing_frames;
 
-pub(crate) use access::{Access, ChosenFiles, read_further, read_in};
+pub(crate) use access::{Access, ChosenFiles, read_choice, read_further, read_in};
 pub(crate) use decoded_picture::DecodedPicture;
 pub(crate) use lock::lock;
 pub(crate) use memory_budget::light_bytes;

@@ -3,9 +3,9 @@
 mod frame;
 mod hdr;
 mod numbers;
-mod quartered;
-mod quartering;
+mod rgb_to_yuv420;
 mod yuv;
+mod yuv420_to_rgb;
 
 use cosmorama::raster::{Primaries, Transfer};
 use cosmorama_io::transfer_of_number;
@@ -13,9 +13,9 @@ use cosmorama_io::transfer_of_number;
 pub use hdr::{ContentLight, HdrTags, MasteringDisplay};
 pub(crate) use numbers::Axis;
 pub use numbers::transfer_number;
-pub(crate) use quartered::Quartered;
-pub(crate) use quartering::Quartering;
+pub(crate) use rgb_to_yuv420::RgbToYuv420;
 pub(crate) use yuv::Coding;
+pub(crate) use yuv420_to_rgb::Yuv420ToRgb;
 
 /// Colour tags of a video stream; `None` where it says nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -146,7 +146,7 @@ impl Decoder {
 
     /// Returns RGB of 8 bits.
     fn shallow(&self, planes: Vec<u8>, pool: &FramePool) -> Samples {
-        let Pixels::Quartered { coding, .. } = self.raw.pixels else { return Samples::U8(planes) };
+        let Pixels::Yuv420 { coding, .. } = self.raw.pixels else { return Samples::U8(planes) };
         let row = self.size.0 * self.raw.channels.count();
         let mut pixels = pool.take(row * self.size.1);
         let given = &mut pixels[row * self.rows.start..row * self.rows.end];
@@ -165,7 +165,7 @@ impl Decoder {
         match self.raw.pixels {
             Pixels::Yuv(coding) => coding.pixels(&planes, count, &mut pixels),
             Pixels::Grey(coding) => coding.grey_pixels(&planes, &mut pixels),
-            Pixels::Rgb | Pixels::Quartered { .. } => {}
+            Pixels::Rgb | Pixels::Yuv420 { .. } => {}
         }
         pool.give(Samples::U16(planes));
         Samples::U16(pixels)

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use cosmorama::raster::{Channels, Depth};
 
-use crate::colour::{Axis, Coding, Quartered};
+use crate::colour::{Axis, Coding, Yuv420ToRgb};
 use crate::ffmpeg::EXACT;
 use crate::{ChromaPlace, Turn, VideoError, VideoInfo};
 
@@ -24,7 +24,7 @@ pub(super) enum Pixels {
     /// RGB, as it is given on.
     Rgb,
     /// Planes of YUV of 8 bits, with a quarter of the chroma samples. ffmpeg would convert them exactly, but slowly.
-    Quartered { coding: Quartered, name: &'static str },
+    Yuv420 { coding: Yuv420ToRgb, name: &'static str },
     /// Planes of YUV of more than 8 bits, with all chroma samples. ffmpeg would convert them with errors of the size of a code of 8 bits.
     Yuv(Coding),
     /// A plane of grey of more than 8 bits.
@@ -48,9 +48,9 @@ impl Raw {
         let pixels = match (is_deep, info.is_rgb, info.is_grey && !info.has_alpha) {
             (true, false, true) => Pixels::Grey(coding(GREY, bits)?),
             (true, false, false) if !info.is_grey => Pixels::Yuv(coding(info.matrix(), bits)?),
-            _ => match quartered(info) {
+            _ => match yuv420(info) {
                 Some(name) => {
-                    Pixels::Quartered { coding: Quartered::new(&coding(info.matrix(), 8)?, place(info)), name }
+                    Pixels::Yuv420 { coding: Yuv420ToRgb::new(&coding(info.matrix(), 8)?, place(info)), name }
                 }
                 None => Pixels::Rgb,
             },
@@ -66,7 +66,7 @@ impl Raw {
     /// Returns ffmpeg's name.
     pub(super) fn name(self) -> String {
         match (self.pixels, self.depth, self.channels.has_alpha()) {
-            (Pixels::Quartered { name, .. }, ..) => name.to_owned(),
+            (Pixels::Yuv420 { name, .. }, ..) => name.to_owned(),
             (Pixels::Rgb, Depth::Eight, false) => "rgb24".to_owned(),
             (Pixels::Rgb, Depth::Eight, true) => "rgba".to_owned(),
             (Pixels::Rgb, _, false) => "rgb48le".to_owned(),
@@ -81,7 +81,7 @@ impl Raw {
     pub(super) fn rows(self, height: usize, looked_at: Option<&Range<usize>>) -> Range<usize> {
         const AROUND: usize = 4;
         match (self.pixels, looked_at) {
-            (Pixels::Quartered { .. }, Some(Range { start, end })) if start < end => {
+            (Pixels::Yuv420 { .. }, Some(Range { start, end })) if start < end => {
                 let first = start.saturating_sub(AROUND) / 2 * 2;
                 first..end.saturating_add(AROUND).next_multiple_of(2).min(height)
             }
@@ -94,7 +94,7 @@ impl Raw {
         let plane = |width: usize, height: usize| width as u64 * height as u64;
         match self.pixels {
             Pixels::Rgb | Pixels::Yuv(_) => plane(width, height) * self.channels.count() as u64,
-            Pixels::Quartered { .. } => plane(width, height) + 2 * plane(width.div_ceil(2), height.div_ceil(2)),
+            Pixels::Yuv420 { .. } => plane(width, height) + 2 * plane(width.div_ceil(2), height.div_ceil(2)),
             Pixels::Grey(_) => plane(width, height),
         }
     }
@@ -102,7 +102,7 @@ impl Raw {
 
 /// Returns ffmpeg's name of the planes of a video of 8 bits with a quarter of the chroma samples; `None` for others, and for frames that
 /// are to be turned.
-fn quartered(info: &VideoInfo) -> Option<&'static str> {
+fn yuv420(info: &VideoInfo) -> Option<&'static str> {
     let is_upright = info.turn == Turn::default();
     ["yuv420p", "yuvj420p"].into_iter().find(|name| is_upright && *name == info.pixel_format)
 }
@@ -143,7 +143,7 @@ pub(super) fn chain(
     // The second prints frames that have a note, and so the first gives each of them one.
     filters.push("metadata=mode=add:key=c:value=1".to_owned());
     filters.push(r"metadata=mode=print:file=pipe\\:2:direct=1".to_owned());
-    if !matches!(raw.pixels, Pixels::Quartered { .. }) {
+    if !matches!(raw.pixels, Pixels::Yuv420 { .. }) {
         filters.push(scale(info, raw)?);
     } else if rows.len() < info.size().1 {
         filters.push(format!("crop=iw:{}:0:{}:exact=1", rows.len(), rows.start));

@@ -9,7 +9,7 @@ use super::carried::Plan;
 use super::codec::Encoder;
 use super::feed::Planes;
 use super::{Codec, Container, WriteSettings};
-use crate::colour::{Coding, Quartering};
+use crate::colour::{Coding, RgbToYuv420};
 use crate::ffmpeg::{EXACT, Log, url};
 use crate::{ColourTags, Ffmpeg, SignalRange};
 
@@ -57,7 +57,7 @@ impl Parts<'_> {
         let range = tags.range.unwrap_or(SignalRange::Narrow).name();
         let scale = if self.codec.is_rgb() {
             format!("scale={EXACT}")
-        } else if matches!(self.planes(), Some(Planes::Quartered(_))) {
+        } else if matches!(self.planes(), Some(Planes::Yuv420(_))) {
             "null".to_owned()
         } else if self.planes().is_some() {
             // The matrix is applied before; only chroma samples become fewer.
@@ -80,7 +80,7 @@ impl Parts<'_> {
         let tags = self.colour();
         let coding = |bits| Coding::new(tags.matrix?, tags.range.unwrap_or(SignalRange::Narrow), bits);
         match self.encoder.pixel_format {
-            "yuv420p" if self.settings.depth == Depth::Eight => Some(Planes::Quartered(Quartering::new(&coding(8)?))),
+            "yuv420p" if self.settings.depth == Depth::Eight => Some(Planes::Yuv420(RgbToYuv420::new(&coding(8)?))),
             name if name.ends_with("10le") => coding(10).map(Planes::Deep),
             _ => None,
         }

@@ -6,7 +6,7 @@ use std::io::{self, Write};
 
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
 
-use crate::colour::{Coding, Quartering};
+use crate::colour::{Coding, RgbToYuv420};
 use crate::{Bounds, HdrTags, MasteringDisplay, Ratio, SpatialTags, SphericalProjection, StereoMode};
 
 /// Header of the stream.
@@ -33,14 +33,14 @@ pub(super) enum Planes {
     /// Planes of 10 bits with all chroma samples. ffmpeg would convert more than 8 bits with errors of the size of a code of 8 bits.
     Deep(Coding),
     /// Planes of 8 bits with a quarter of the chroma samples, which are half as many bytes as RGB.
-    Quartered(Quartering),
+    Yuv420(RgbToYuv420),
 }
 
 impl RawFormat {
     /// Returns the code by which ffmpeg knows the format.
     fn code(self) -> &'static [u8; 4] {
         match (self.planes, self.is_deep(), self.has_alpha) {
-            (Some(Planes::Quartered(_)), ..) => b"I420",
+            (Some(Planes::Yuv420(_)), ..) => b"I420",
             (Some(Planes::Deep(_)), _, false) => b"Y3\0\x0a",
             (Some(Planes::Deep(_)), _, true) => b"Y4\0\x0a",
             (None, false, false) => b"RGB\x18",
@@ -255,13 +255,13 @@ pub(super) fn write_frame(
             deep = coding.planes(samples, frame.channels().count());
             bytes_of(&deep)
         }
-        (Some(Planes::Quartered(quartering)), Samples::U8(samples)) => {
-            quartering.planes(samples, (frame.width(), frame.height())).into()
+        (Some(Planes::Yuv420(coding)), Samples::U8(samples)) => {
+            coding.planes(samples, (frame.width(), frame.height())).into()
         }
         (None, Samples::U8(samples)) => samples.as_slice().into(),
         (None, Samples::U16(samples)) => bytes_of(samples),
         // Frames of floats are refused before, and those of 16 bits where planes have 8.
-        (None, Samples::Half(_) | Samples::Float(_)) | (Some(Planes::Quartered(_)), _) => (&[] as &[u8]).into(),
+        (None, Samples::Half(_) | Samples::Float(_)) | (Some(Planes::Yuv420(_)), _) => (&[] as &[u8]).into(),
     };
     let nanosecond = Ratio::new(1, NANOSECONDS as u64).unwrap_or(Ratio::ONE);
     let time = whole(TIMESTAMP, stamp.tick.rescale(stamp.time, nanosecond).max(0).cast_unsigned());

@@ -247,6 +247,19 @@ fn deep_frames_never_wait_for_each_other() {
     }
 }
 
+/// Frames that cannot be what is said of them are refused for that, not as if they were files of pictures.
+#[test]
+fn a_film_of_another_shape_is_no_damaged_picture() {
+    if !has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    ffmpeg(&bench, &["-f", "lavfi", "-i", "testsrc2=size=64x64:rate=25,trim=end_frame=2", "-c:v", "ffv1", "film.mkv"]);
+    let told = refused(&bench, 1, ["film.mkv", "dome.mkv"], &[]);
+    assert_says(&told, &["film.mkv", "64"]);
+    assert!(!told.contains("known format"), "{told}");
+}
+
 /// What a decoder says behind the last frame still keeps the output from appearing.
 #[test]
 fn damage_of_the_last_frame_is_heard() {

@@ -9,7 +9,7 @@ use crate::ChromaPlace;
 
 /// Relation of planes of YUV, of which those of chroma have half the columns and half the rows, to pixels of RGB.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Quartered {
+pub(crate) struct Yuv420ToRgb {
     factors: Factors,
     place: ChromaPlace,
 }
@@ -82,7 +82,7 @@ impl Between {
     }
 }
 
-impl Quartered {
+impl Yuv420ToRgb {
     /// Creates the relation from one of 8 bits.
     pub(crate) fn new(coding: &Coding, place: ChromaPlace) -> Self {
         let neutral = f32::from(NEUTRAL);
@@ -247,7 +247,7 @@ mod tests {
                 let planes = [vec![yuv[0]; width * height], vec![yuv[1]; chroma], vec![yuv[2]; chroma]].concat();
                 let mut pixels = vec![0; 3 * width * height];
                 let coding = coding(matrix, range);
-                Quartered::new(&coding, place).pixels(&planes, (width, height), &mut pixels);
+                Yuv420ToRgb::new(&coding, place).pixels(&planes, (width, height), &mut pixels);
                 assert!(pixels.chunks(3).all(|pixel| *pixel == pixels[..3]), "{yuv:?}");
                 assert_near(&coding, yuv.map(f32::from), &pixels[..3]);
             }
@@ -269,7 +269,7 @@ mod tests {
             let planes = [vec![120; width * height], chroma(0), chroma(1)].concat();
             let mut pixels = vec![0; 3 * width * height];
             let coding = coding(1, SignalRange::Full);
-            Quartered::new(&coding, place).pixels(&planes, (width, height), &mut pixels);
+            Yuv420ToRgb::new(&coding, place).pixels(&planes, (width, height), &mut pixels);
             for (index, pixel) in pixels.chunks(3).enumerate() {
                 let (i, j) = (index % width, index / width);
                 if !(4..width - 4).contains(&i) || !(4..height - 4).contains(&j) {

@@ -8,7 +8,7 @@ use super::Coding;
 /// Relation of pixels of RGB to planes of YUV, of which those of chroma have half the columns and half the rows. Their samples lie at the
 /// left one of two columns, between two rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Quartering {
+pub(crate) struct RgbToYuv420 {
     luma: Sum,
     chroma: [Sum; 2],
 }
@@ -51,7 +51,7 @@ impl Sum {
     }
 }
 
-impl Quartering {
+impl RgbToYuv420 {
     /// Creates the relation from one of 8 bits.
     pub(crate) fn new(coding: &Coding) -> Self {
         let chroma = |axis| Sum::new(coding, axis, WEIGHTS);
@@ -196,7 +196,7 @@ mod tests {
                 let rgb = [at * 7 % 256, at * 31 % 256, at * 57 % 256].map(|code| code as u8);
                 let (width, height) = (1 + at % 40, 1 + at % 70);
                 let coding = Coding::new(matrix, range, 8).unwrap();
-                let planes = Quartering::new(&coding).planes(&rgb.repeat(width * height), (width, height));
+                let planes = RgbToYuv420::new(&coding).planes(&rgb.repeat(width * height), (width, height));
                 let (luma, chroma) = planes.split_at(width * height);
                 let (u, v) = chroma.split_at(width.div_ceil(2) * height.div_ceil(2));
                 let expected = coding.yuv(rgb.map(|code| f32::from(code) / 255.0)).map(|code| code.clamp(0.0, 255.0));
@@ -215,7 +215,7 @@ mod tests {
         let blue = |x: f32, y: f32| 60.0 + 2.0 * x + y;
         let pixels: Vec<u8> =
             (0..width * height).flat_map(|at| [40, 40, blue((at % width) as f32, (at / width) as f32) as u8]).collect();
-        let planes = Quartering::new(&coding).planes(&pixels, (width, height));
+        let planes = RgbToYuv420::new(&coding).planes(&pixels, (width, height));
         for (at, u) in planes[width * height..].iter().take(width * height / 4).enumerate() {
             let (column, row) = (at % (width / 2), at / (width / 2));
             if column > 0 {
