@@ -331,7 +331,7 @@ fn no_crate_depends_on_a_higher_one() {
 }
 
 /// Files with code for lanes. All else is plain: one pixel after the other, so that the two can be held equal.
-const LANES: [&str; 39] = [
+const LANES: [&str; 40] = [
     "filter/ewa/blocks.rs",
     "filter/ewa/cubic.rs",
     "filter/ewa/direct.rs",
@@ -354,6 +354,7 @@ const LANES: [&str; 39] = [
     "render/apply/fixed/patch_texels.rs",
     "render/apply/fixed/quantize.rs",
     "render/apply/fixed/turned.rs",
+    "render/apply/fixed/unmirrored.rs",
     "render/apply/fixed/weights.rs",
     "render/apply/fixed/window.rs",
     "render/apply/float/large.rs",
