@@ -8,6 +8,7 @@ use std::collections::HashSet;
 use std::fmt::Display;
 use std::io::{ErrorKind, Write, stderr, stdout};
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use anyhow::{Context, Result};
@@ -29,6 +30,8 @@ pub(crate) struct Console {
     pub(crate) unfinished: Unfinished,
     /// Diagnostics that were printed: none is twice.
     said: Mutex<HashSet<String>>,
+    /// Whether an engine for jobs reads along, by Open Job Description.
+    is_for_engine: AtomicBool,
 }
 
 impl Console {
@@ -37,8 +40,10 @@ impl Console {
         Self { log, ..Self::default() }
     }
 
-    /// Returns the style of progress that was asked for; by itself it is JSON where the log is.
+    /// Returns the style of progress that was asked for; by itself it is JSON where the log is. From now on an engine that reads along is
+    /// told of a failure, too.
     pub(crate) fn progress(&self, style: ProgressStyle) -> ProgressStyle {
+        self.is_for_engine.store(style == ProgressStyle::Openjd, Ordering::Relaxed);
         if style == ProgressStyle::Auto && self.log.is_json() { ProgressStyle::Json } else { style }
     }
 
@@ -84,7 +89,11 @@ impl Console {
 
     /// Tells why the work ends.
     pub(crate) fn error(&self, text: &str) {
-        self.log.error(&self.told(text));
+        let text = self.told(text);
+        self.log.error(&text);
+        if self.is_for_engine.load(Ordering::Relaxed) {
+            say(format_args!("openjd_fail: {}", text.replace('\n', " ")));
+        }
     }
 
     /// Tells what was done.

@@ -37,9 +37,9 @@ pub(super) fn run(args: ConvertArgs, console: &mut Console) -> Result<ExitCode> 
 
 /// Converts, and prints diagnostics and progress meanwhile.
 pub(super) fn convert(conversion: Conversion, style: ProgressStyle, console: &Console) -> Result<Report> {
+    let mut watch = Watch::new(console, style);
     let checked = Conversion { unfinished: console.unfinished.clone(), ..conversion }.check();
     console.tell_all(&checked);
-    let mut watch = Watch::new(console, style);
     let report = checked.result?.run(&mut watch)?;
     watch.finish();
     Ok(report)

@@ -4,6 +4,8 @@ use crate::bench::{Bench, assert_says, flat, picture, text};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
 use serde_json::{Value, json};
 
+use super::films::{ffmpeg, has_ffmpeg};
+
 /// Frames 1 to `count`, each a little other than the one before.
 fn sequence(bench: &Bench, count: usize) {
     for frame in 1..=count {
@@ -172,7 +174,6 @@ fn what_is_no_sequence_is_refused() {
 #[cfg(feature = "video")]
 #[test]
 fn frames_of_a_video_are_verified() {
-    use super::films::{ffmpeg, has_ffmpeg};
     if !has_ffmpeg() {
         return;
     }
@@ -221,4 +222,39 @@ fn frames_of_a_video_are_verified() {
     assert_eq!(bench.load("sheet.png").width(), 2 * 64 + 4);
     let (code, told) = verify(&["film.mkv", "--sheet", "film.mkv", "-y"]);
     assert!(code == Some(2) && bench.bytes("film.mkv") == whole, "{told}");
+}
+
+/// A cut file of Matroska says how many frames it has by its duration, which is not trusted where times are uneven, as where frames
+/// are coded out of order. Then those that are left are not counted as if they were all.
+#[test]
+fn no_cut_of_a_film_passes_for_a_short_film() {
+    if !has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    for (rate, codec) in [("25", "libx264"), ("30000/1001", "libx264"), ("25", "mpeg2video")] {
+        let source = format!("testsrc2=size=192x96:rate={rate}:duration=2");
+        let codec = ["-c:v", codec, "-bf", "2", "-g", "10", "-pix_fmt", "yuv420p"];
+        ffmpeg(&bench, &[&["-y", "-f", "lavfi", "-i", &source], &codec[..], &["film.mkv"]].concat());
+        let bytes = bench.bytes("film.mkv");
+        for percent in [30, 45, 60, 75, 90, 98] {
+            std::fs::write(bench.path("cut.mkv"), &bytes[..bytes.len() * percent / 100]).unwrap();
+            let said = bench.run(&[
+                "convert",
+                "cut.mkv",
+                "dome_####.png",
+                "-y",
+                "--from",
+                "equirect",
+                "--to",
+                "fulldome",
+                "--size",
+                "16",
+            ]);
+            assert_eq!(said.status.code(), Some(1), "{percent} % of {codec:?}, {rate}: {}", text(&said.stderr));
+            assert_says(&text(&said.stderr), &["cut.mkv"]);
+            let told = bench.run(&["verify", "cut.mkv"]);
+            assert_eq!(told.status.code(), Some(1), "{percent} % of {codec:?}, {rate}: {}", text(&told.stdout));
+        }
+    }
 }

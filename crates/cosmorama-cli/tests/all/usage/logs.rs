@@ -118,6 +118,21 @@ fn the_environment_chooses_by_topic_and_hides_no_warning() {
     assert_says(&text(&failed.unwrap().stderr), &["error: ", "none.png"]);
 }
 
+/// An engine is told of a failure in one line, whether work had begun or not.
+#[test]
+fn an_engine_is_told_why_a_job_fails() {
+    let bench = Bench::new();
+    bench.save("sky_1.png", &picture(1, 64, 32));
+    std::fs::write(bench.path("sky_2.png"), &std::fs::read(bench.path("sky_1.png")).unwrap()[..60]).unwrap();
+    for input in ["sky_#.png", "none_#.png"] {
+        let args = [&["convert", input, "dome_#.png", "--from", "equirect"][..], &TO, &["openjd"]].concat();
+        let told = text(&bench.run(&args).stderr);
+        let of_engine: Vec<&str> = told.lines().filter(|line| line.starts_with("openjd_fail: ")).collect();
+        assert_eq!(of_engine.len(), 1, "{told}");
+        assert!(told.contains(&of_engine[0].replace("openjd_fail: ", "error: ")), "{told}");
+    }
+}
+
 /// A name may hold what a terminal obeys, or what looks like a line for an engine.
 #[test]
 #[cfg(unix)]

@@ -10,8 +10,8 @@ use cosmorama_io::pending::Unfinished;
 use cosmorama_io::{Header, ImageFile, IoError, Limits};
 use cosmorama_spec::{FrameRate, Spec};
 use cosmorama_video::{
-    Announced, AnnouncedBy, Damaged, Fault, Ffmpeg, PairedReader, ReadOptions, SecondHalf, Timeline, VideoError,
-    VideoInfo, VideoReader,
+    Announced, AnnouncedBy, CutShort, Damaged, Fault, Ffmpeg, PairedReader, ReadOptions, SecondHalf, Timeline,
+    VideoError, VideoInfo, VideoReader,
 };
 use thiserror::Error;
 
@@ -209,8 +209,11 @@ impl Videos {
         state.close();
         let ranged = |(first, (count, reason)): (&u64, &(u64, String))| (*first..first + count, reason.clone());
         let announced = source.count;
-        let further = state.has_more.then(|| (announced..announced + 1, more_than(announced)));
-        Ok(state.faults.iter().map(ranged).chain(further).collect())
+        let further = state.has_more.then(|| more_than(announced));
+        // Frames that a cut file lacks may be counted by nobody.
+        let further = further.or_else(|| source.cut().filter(|_| state.faults.is_empty()));
+        let behind = further.map(|reason| (announced..announced + 1, reason));
+        Ok(state.faults.iter().map(ranged).chain(behind).collect())
     }
 
     /// Returns messages about frames that were damaged, and about frames that were not announced; an item for each video.
@@ -266,9 +269,9 @@ impl Source {
             DamagedFrames::Hold => Damaged::Hold,
             DamagedFrames::Skip => Damaged::Skip,
         };
-        let (mut frames, mut header) = (count(&ffmpeg, &info)?, described::header(&info));
+        let (mut frames, mut header) = (count(&ffmpeg, &info, damaged)?, described::header(&info));
         if let Some(half) = &half {
-            let others = count(&ffmpeg, &half.info)?;
+            let others = count(&ffmpeg, &half.info, damaged)?;
             if others != frames {
                 let (all, both) = (frames.max(others), frames.min(others));
                 header.metadata.notes.push(format!(
@@ -283,6 +286,13 @@ impl Source {
         let content = Content::Film { ffmpeg, info: Box::new(info), half: half.map(Box::new) };
         let count = frames;
         Ok(Self { name: video.to_owned(), content, header, damaged, count, state: Mutex::default() })
+    }
+
+    /// Returns how a video's file is cut, if it is.
+    fn cut(&self) -> Option<String> {
+        let Content::Film { info, .. } = &self.content else { return None };
+        let CutShort { expected, found } = info.cut?;
+        Some(VideoError::Cut { path: info.path.clone(), expected, found }.to_string())
     }
 
     fn raw(kind: RawKind, video: &Path, files: &Arc<dyn RawFiles>) -> Result<Self, IoError> {
@@ -471,16 +481,20 @@ impl State {
 pub(super) struct Shared(pub(super) Arc<VideoError>);
 
 /// Returns the number of frames that a file announces. Where only its duration tells, which may be rounded, its coded frames are
-/// counted.
-fn count(ffmpeg: &Ffmpeg, info: &VideoInfo) -> Result<u64, VideoError> {
+/// counted; of a file that is cut they would be too few, and nobody would miss the others.
+fn count(ffmpeg: &Ffmpeg, info: &VideoInfo, damaged: Damaged) -> Result<u64, VideoError> {
     let announced = match info.announced {
         Some(Announced { frames, by: AnnouncedBy::Count }) if !hides_frames(info, frames) => return Ok(frames),
         Some(Announced { frames, by: AnnouncedBy::Count }) => Some(frames),
         Some(Announced { frames, by: AnnouncedBy::Duration }) => Some(frames),
         None => None,
     };
-    if let (Some(frames), Some(_)) = (announced, info.cut) {
-        return Ok(frames);
+    match (announced, info.cut) {
+        (Some(frames), Some(_)) => return Ok(frames),
+        (None, Some(CutShort { expected, found })) if damaged == Damaged::Error => {
+            return Err(VideoError::Cut { path: info.path.clone(), expected, found });
+        }
+        _ => {}
     }
     // The times of a variable rate are listed one by one.
     let mut listed = info.clone();
