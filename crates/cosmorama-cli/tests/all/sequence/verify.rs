@@ -4,6 +4,7 @@ use crate::bench::{Bench, assert_says, flat, picture, text};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
 use serde_json::{Value, json};
 
+#[cfg(feature = "video")]
 use super::films::{ffmpeg, has_ffmpeg};
 
 /// Frames 1 to `count`, each a little other than the one before.
@@ -226,6 +227,7 @@ fn frames_of_a_video_are_verified() {
 
 /// A cut file of Matroska says how many frames it has by its duration, which is not trusted where times are uneven, as where frames
 /// are coded out of order. Then those that are left are not counted as if they were all.
+#[cfg(feature = "video")]
 #[test]
 fn no_cut_of_a_film_passes_for_a_short_film() {
     if !has_ffmpeg() {
