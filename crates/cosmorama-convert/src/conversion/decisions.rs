@@ -215,11 +215,12 @@ impl Checked {
         let count = outputs.count().map(|count| format!("{} to make", counted(count, "frame")));
         let mut message = count.unwrap_or_else(|| "a frame to make for each that comes".to_owned());
         if outputs.skipped > 0 {
-            message += &format!(", {} kept, because they are whole and made alike", counted(outputs.skipped, "output"));
+            let alike = if outputs.resumed.untold == 0 { " and made alike" } else { "" };
+            message += &format!(", {} kept, because they are whole{alike}", counted(outputs.skipped, "output"));
         }
-        if !outputs.remade.is_empty() {
-            message +=
-                &format!(", {} made anew, because something else is there", counted(outputs.remade.len(), "output"));
+        let remade = outputs.resumed.remade.len();
+        if remade > 0 {
+            message += &format!(", {} made anew, because something else is there", counted(remade, "output"));
         }
         let Space { all, free, .. } = Space::of(&self.job, self.settings.compression);
         let each = if outputs.go_on { " a frame" } else { "" };

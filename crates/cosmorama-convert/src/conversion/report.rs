@@ -56,7 +56,7 @@ impl Report {
             outputs: outputs.paths().map(Path::to_owned).chain(further.files).collect(),
             frames: outputs.frames.len() + further.frames,
             skipped: outputs.skipped,
-            remade: outputs.remade.clone(),
+            remade: outputs.resumed.remade.clone(),
             wall,
             cpu_seconds: stages.cpu_seconds(),
             peak_memory_bytes: peak_bytes(),

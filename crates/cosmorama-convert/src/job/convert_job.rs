@@ -251,7 +251,7 @@ impl ConvertJob {
             decoded,
         };
         job.leave_finished(settings, purpose)?;
-        warnings.extend(job.outputs.warning());
+        warnings.extend(job.outputs.warnings());
         warnings.extend(Space::of(&job, settings.compression).warning(&job.outputs));
         job.check_scale()?;
         if content.has_files() {

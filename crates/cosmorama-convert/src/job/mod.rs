@@ -14,6 +14,7 @@ mod resume;
 
 pub use outputs::{check_apart, real_path, refuse_existing};
 pub use resume::Remade;
+pub(crate) use resume::Resumed;
 
 pub(crate) use content::Content;
 pub(crate) use convert_job::{ConvertJob, Purpose};

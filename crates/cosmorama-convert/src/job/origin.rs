@@ -135,13 +135,17 @@ pub(crate) fn settings_of(origin: &str) -> Option<&str> {
     Some(origin.split_once(POSE)?.0)
 }
 
-/// Returns the names of the parts in which two origins differ; none if they are of different versions of the program, which
-/// may compute alike.
+/// Returns whether two origins are of one version of the program; others may compute alike.
+pub(crate) fn are_of_one_version(found: &str, expected: &str) -> bool {
+    found.split(", ").next() == expected.split(", ").next()
+}
+
+/// Returns the names of the parts in which two origins differ; none if they are of different versions of the program.
 pub(crate) fn differences(found: &str, expected: &str) -> Vec<String> {
-    let (found, expected): (Vec<&str>, Vec<&str>) = (found.split(", ").collect(), expected.split(", ").collect());
-    if found.first() != expected.first() {
+    if !are_of_one_version(found, expected) {
         return Vec::new();
     }
+    let (found, expected): (Vec<&str>, Vec<&str>) = (found.split(", ").collect(), expected.split(", ").collect());
     let differ = expected.iter().filter(|part| !found.contains(part));
     differ.filter_map(|part| Some(part.split_once(' ')?.0.to_owned())).collect()
 }

@@ -6,7 +6,7 @@ use cosmorama_io::{Compression, Format, FramePattern};
 
 use crate::diagnostic::{Code, Diagnostic, FRAMES, OVERWRITE, RESUME, Result, bail, failure, usage, usage_as};
 use crate::input::Input;
-use crate::job::{ConvertJob, Remade};
+use crate::job::{ConvertJob, Remade, Resumed};
 use crate::settings::{Conversion, Existing, GeometrySettings};
 use crate::source::ViewFiles;
 use crate::source::memory_budget::human;
@@ -32,8 +32,8 @@ pub(crate) struct Outputs {
     is_passed_on: bool,
     /// Number of outputs that exist already.
     pub(crate) skipped: usize,
-    /// Outputs that are made again because something else is in their place.
-    pub(crate) remade: Vec<Remade>,
+    /// What was found in the places of others.
+    pub(crate) resumed: Resumed,
     /// Folders that were created for outputs; they are removed with this value if they stay empty.
     _folders: NewFolders,
 }
@@ -61,9 +61,9 @@ impl Outputs {
         paths.filter(move |path| seen.insert(*path))
     }
 
-    /// Returns the warning about outputs that are made again.
-    pub(crate) fn warning(&self) -> Option<Diagnostic> {
-        Remade::warning(&self.remade)
+    /// Returns the warnings about outputs that are made again, and about those that are kept without their word.
+    pub(crate) fn warnings(&self) -> impl Iterator<Item = Diagnostic> {
+        Remade::warning(&self.resumed.remade).into_iter().chain(self.resumed.warning())
     }
 
     /// Returns the frames of an input whose light is read, without any output.
@@ -130,7 +130,7 @@ impl Outputs {
     pub(crate) fn leave_finished(&mut self, existing: Existing, job: &ConvertJob) -> Result<()> {
         let all = self.paths().count();
         match existing {
-            Existing::Resume => self.remade = Remade::find(&mut self.frames, job)?,
+            Existing::Resume => self.resumed = Resumed::find(&mut self.frames, job)?,
             Existing::Refuse if !self.is_passed_on => {
                 let numbered = if self.go_on { numbered(&job.target) } else { Vec::new() };
                 let others = self.paths().filter(|path| !numbered.iter().any(|numbered| numbered == path));

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::colour::{LayerPlan, Light};
 use crate::diagnostic::{Code, ConvertError, Diagnostic, OVERWRITE, RESUME, Result, failed_as};
-use crate::job::origin::differences;
+use crate::job::origin::{are_of_one_version, differences};
 use crate::job::{ConvertJob, FrameOutputs};
 use crate::target::TargetFile;
 
@@ -19,11 +19,23 @@ pub struct Remade {
     pub reason: String,
 }
 
+/// What was found in the places of outputs.
+#[derive(Debug, Default)]
+pub(crate) struct Resumed {
+    /// Outputs that are made again.
+    pub(crate) remade: Vec<Remade>,
+    /// Number of outputs that are kept although they do not say how they were made.
+    pub(crate) untold: usize,
+}
+
 /// Content in the place of an output.
 enum Found {
     Nothing,
     /// The complete output.
-    Complete,
+    Complete {
+        /// Whether it says how it was made.
+        tells_how: bool,
+    },
     /// Something else, in words.
     Other(String),
     /// A whole picture by other settings, or from other inputs; the parts in which these differ.
@@ -40,50 +52,64 @@ struct Expected<'a> {
     origin: Option<&'a str>,
 }
 
-impl Remade {
+impl Resumed {
     /// Removes from each frame the outputs that are complete. Returns the others whose places hold something else.
     ///
     /// # Errors
     /// When an output was made by other settings, or from other inputs.
-    pub(crate) fn find(frames: &mut [FrameOutputs], job: &ConvertJob) -> Result<Vec<Self>> {
+    pub(crate) fn find(frames: &mut [FrameOutputs], job: &ConvertJob) -> Result<Self> {
         // As many outputs at once as fit into memory when decoded.
         let bytes = |size| job.light.file_bytes(size).saturating_add(job.layers.file_bytes(size));
         let largest = job.target.files.iter().map(|file| bytes(file.sheet.size)).max().unwrap_or(0);
         let at_once = (job.memory.bytes / largest.max(1)).clamp(1, frames.len().max(1) as u64) as usize;
-        let mut all = Vec::new();
+        let mut all = Self::default();
         for some in frames.chunks_mut(at_once) {
             let of = |frame: &mut FrameOutputs| Self::of(frame, job);
             // All of them, so that the first in order is told of, whichever thread is the fastest.
-            let remade: Vec<Result<Vec<Self>>> = some.par_iter_mut().map(of).collect();
-            for of_frame in remade {
-                all.extend(of_frame?);
+            let found: Vec<Result<Self>> = some.par_iter_mut().map(of).collect();
+            for of_frame in found {
+                let Self { remade, untold } = of_frame?;
+                all.remade.extend(remade);
+                all.untold += untold;
             }
         }
         Ok(all)
     }
 
-    fn of(frame: &mut FrameOutputs, job: &ConvertJob) -> Result<Vec<Self>> {
+    fn of(frame: &mut FrameOutputs, job: &ConvertJob) -> Result<Self> {
         // What reads inputs, so only where there is something to compare with.
         let exists = frame.files.iter().any(|(_, path)| path.exists());
         let origin = if exists { job.origin_of(frame.frame)? } else { None };
         let (light, layers) = (&job.light, &job.layers);
-        let (mut remade, mut left) = (Vec::new(), Vec::new());
+        let (mut found, mut left) = (Self::default(), Vec::new());
         for (index, path) in std::mem::take(&mut frame.files) {
             let expected = Expected { target: &job.target.files[index], light, layers, origin: origin.as_deref() };
             match Found::at(&path, expected) {
                 Found::Nothing => left.push((index, path)),
-                Found::Complete => {}
+                Found::Complete { tells_how } => found.untold += usize::from(!tells_how),
                 Found::Other(reason) => {
-                    remade.push(Self { output: path.clone(), reason });
+                    found.remade.push(Remade { output: path.clone(), reason });
                     left.push((index, path));
                 }
                 Found::Otherwise(parts) => return Err(otherwise(&path, &parts)),
             }
         }
         frame.files = left;
-        Ok(remade)
+        Ok(found)
     }
 
+    /// Returns the warning about outputs that are kept although they do not say how they were made.
+    pub(crate) fn warning(&self) -> Option<Diagnostic> {
+        let outputs = if self.untold == 1 { "1 output is".to_owned() } else { format!("{} outputs are", self.untold) };
+        let message = format!(
+            "{RESUME}: {outputs} kept by size and samples alone: no word in the file says how it was made, by this version; if that \
+             was by other settings or from other inputs, {OVERWRITE} makes all anew"
+        );
+        (self.untold > 0).then(|| Diagnostic::warning(Code::Remade, message))
+    }
+}
+
+impl Remade {
     /// Returns the warning about outputs that are made again; `None` if there are none.
     pub(crate) fn warning(all: &[Self]) -> Option<Diagnostic> {
         const SHOWN: usize = 5;
@@ -139,7 +165,7 @@ impl Found {
         let limits = Limits::memory(bytes);
         let pool = FramePool::default();
         match open(path).and_then(|file| read_chosen(file, path, (&limits, &pool), &choice)) {
-            Ok(_) => Self::Complete,
+            Ok(_) => Self::Complete { tells_how: Self::tells_how(&header.metadata, expected) },
             Err(error) => Self::unreadable(error),
         }
     }
@@ -149,6 +175,11 @@ impl Found {
     fn made_otherwise(metadata: &Metadata, Expected { origin, .. }: Expected<'_>) -> Option<Vec<String>> {
         let parts = metadata.origin.as_deref().zip(origin).map(|(found, expected)| differences(found, expected));
         parts.filter(|parts| !parts.is_empty())
+    }
+
+    /// Returns whether a picture's file says how it was made, in words that can be compared.
+    fn tells_how(metadata: &Metadata, Expected { origin, .. }: Expected<'_>) -> bool {
+        metadata.origin.as_deref().zip(origin).is_some_and(|(found, expected)| are_of_one_version(found, expected))
     }
 
     fn unreadable(error: IoError) -> Self {

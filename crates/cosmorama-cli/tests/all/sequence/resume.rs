@@ -41,7 +41,10 @@ fn resume_keeps_what_is_complete_and_makes_the_rest() {
     }
     let report: Value = serde_json::from_str(&bench.succeed(&[&args[..], &["--resume"]].concat())).unwrap();
     assert_eq!((&report["frames"], &report["skipped"]), (&0.into(), &5.into()));
-    assert!(report["remade"].as_array().unwrap().is_empty() && !report["warnings"].to_string().contains("--resume"));
+    // Nothing is made again, and the frame of another program, which does not say how it was made, is told.
+    let warnings = report["warnings"].to_string();
+    assert!(report["remade"].as_array().unwrap().is_empty() && !warnings.contains("made again"), "{warnings}");
+    assert!(warnings.contains("--resume: 1 output is kept by size and samples alone"), "{warnings}");
     bench.succeed(&[&args[..], &["-y"]].concat());
     assert!(bench.bytes("out_1.png") == made[0]);
 }
@@ -240,6 +243,9 @@ fn stripped_frames_say_nothing_of_how_they_were_made() {
     let path = bench.path("out_1.png");
     assert_eq!(cosmorama_io::probe(&path).unwrap().metadata.origin, None);
     kept(&bench, &[&sequence[..], &["--yaw", "20"]].concat());
+    let said = bench.run(&[&sequence[..], &["--yaw", "20", "--resume"]].concat());
+    let told = crate::bench::text(&said.stderr);
+    crate::bench::assert_says(&told, &["warning: --resume: 1 output is kept by size and samples alone", "--overwrite"]);
 }
 
 /// Makes a picture; what is made is kept when it is asked for again.
