@@ -32,7 +32,7 @@ pub(crate) struct Outputs {
     is_passed_on: bool,
     /// Number of outputs that exist already.
     pub(crate) skipped: usize,
-    /// What was found in the places of others.
+    /// Findings in the places of others.
     pub(crate) resumed: Resumed,
     /// Folders that were created for outputs; they are removed with this value if they stay empty.
     _folders: NewFolders,

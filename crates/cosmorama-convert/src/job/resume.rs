@@ -19,7 +19,7 @@ pub struct Remade {
     pub reason: String,
 }
 
-/// What was found in the places of outputs.
+/// Findings in the places of outputs.
 #[derive(Debug, Default)]
 pub(crate) struct Resumed {
     /// Outputs that are made again.
