@@ -350,7 +350,7 @@ impl Source {
     ) -> Result<Option<EncodedImage>, VideoError> {
         if state.reader.as_ref().is_none_or(|(_, next)| *next > number) {
             state.close();
-            state.reader = Some(self.reader(number, state, limits)?);
+            state.reader = Some(self.reader(state.start(number), state, limits)?);
         }
         loop {
             let Some((reader, next)) = &mut state.reader else { return Err(self.without(number)) };
@@ -464,6 +464,13 @@ impl Decoder {
 }
 
 impl State {
+    /// Returns the frame at which a decoder starts that is to give a frame: an earlier one that is wanted, too, if its thread merely
+    /// asks later, so that which thread is first does not decide how much of a video is read.
+    fn start(&self, number: u64) -> u64 {
+        let first = self.wanted.first().copied().unwrap_or(number);
+        if number.saturating_sub(first) < MOST_EARLY as u64 { first.min(number) } else { number }
+    }
+
     /// Ends the decoder, and notes its faults.
     fn close(&mut self) {
         let noted = |Fault { frame, count, reason }: &Fault| (*frame, (*count, reason.clone()));
@@ -512,4 +519,18 @@ fn hides_frames(info: &VideoInfo, counted: u64) -> bool {
     let is_count = matches!(info.announced, Some(Announced { by: AnnouncedBy::Count, .. }));
     let shown = |seconds: f64| (seconds * info.rate.to_f64()).round() as u64;
     is_count && info.cut.is_none() && info.duration.is_some_and(|seconds| shown(seconds) < counted)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decoders_start_at_the_first_frame_that_is_wanted_soon() {
+        let wanting = |wanted: &[u64]| State { wanted: wanted.iter().copied().collect(), ..State::default() };
+        for (wanted, asked, start) in [(&[0, 1][..], 2, 0), (&[3, 4], 2, 2), (&[], 5, 5), (&[7], 70, 7), (&[7], 71, 71)]
+        {
+            assert_eq!(wanting(wanted).start(asked), start, "frame {asked} of {wanted:?}");
+        }
+    }
 }
