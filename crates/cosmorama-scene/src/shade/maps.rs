@@ -103,8 +103,11 @@ impl LightMap {
         if sky.unseen.is_some() || sky.world.sources().iter().all(|source| source.view.is_pinhole()) {
             return None;
         }
-        let edge = ((FRAC_PI_2 / sky.world.texel_pitch()).ceil() as usize).next_power_of_two().min(EDGE);
-        let filter = FilterSettings { kind: FilterKind::EwaPyramid, kernel: Kernel::LIGHT, anti_ringing: false };
+        let fine = ((FRAC_PI_2 / sky.world.texel_pitch()).ceil() as usize).next_power_of_two();
+        let edge = fine.min(EDGE);
+        // Texels as fine as the world's own need no pyramid.
+        let kind = if edge == fine { FilterKind::Ewa } else { FilterKind::EwaPyramid };
+        let filter = FilterSettings { kind, kernel: Kernel::LIGHT, anti_ringing: false };
         let picture = |view: &View| Resampler { world: sky.world, target: view, filter }.render(sky.light.texels());
         Some(Self::on_cube(edge, picture))
     }

@@ -210,10 +210,22 @@ impl View {
             row.iter_mut().enumerate().for_each(|(i, angle)| *angle = self.texel_solid_angle(i, j) as f32);
             return;
         }
-        let (first, step) = (self.grid.to_plane(PixelPoint::centre(0, j)), self.grid.step());
+        self.solid_angles_from(PixelPoint::centre(0, j), row.len(), |i, solid_angle| {
+            row[i] = solid_angle.map_or(0.0, |solid_angle| solid_angle as f32);
+        });
+    }
+
+    /// Computes solid angles as [`View::solid_angle`] does, around a point and points to its right, a pixel apart each, and calls
+    /// `visit` with the number of each.
+    pub(crate) fn solid_angles_from(&self, first: PixelPoint, count: usize, mut visit: impl FnMut(usize, Option<f64>)) {
+        if self.projection.has_steep_rim() {
+            let at = |i: usize| PixelPoint::new(first.x + i as f64, first.y);
+            return (0..count).for_each(|i| visit(i, self.solid_angle(at(i))));
+        }
+        let (first, step) = (self.grid.to_plane(first), self.grid.step());
         let area = (step.x * step.y).abs();
-        self.projection.row_solid_angles(first, step.x, row.len(), |i, solid_angle| {
-            row[i] = solid_angle.map_or(0.0, |solid_angle| (solid_angle * area) as f32);
+        self.projection.row_solid_angles(first, step.x, count, |i, solid_angle| {
+            visit(i, solid_angle.map(|solid_angle| solid_angle * area));
         });
     }
 

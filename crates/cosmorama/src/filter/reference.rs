@@ -65,8 +65,9 @@ impl Prepared for PreparedReference<'_> {
 impl PreparedReference<'_> {
     /// Returns the square of sub-samples around a footprint's middle.
     fn square<'a>(&'a self, footprint: &'a Footprint) -> KernelSquare<'a, impl Fn(f64, f64) -> Option<Direction>> {
-        let in_front = |there: &Direction| there.dot(footprint.direction) > 0.0;
-        let look_at = move |x: f64, y: f64| footprint.direction_at(x, y).filter(in_front);
+        let seen = if self.filter.kernel.round { footprint.rounded() } else { *footprint };
+        let in_front = move |there: &Direction| there.dot(seen.direction) > 0.0;
+        let look_at = move |x: f64, y: f64| seen.direction_at(x, y).filter(in_front);
         KernelSquare::new(self.world, &self.filter, Some(footprint), look_at)
     }
 }

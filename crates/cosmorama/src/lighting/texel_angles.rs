@@ -18,23 +18,30 @@ pub(super) fn texel_angles(source: &Source) -> Cow<'_, [f32]> {
     let width = source.view.width();
     let mut angles = source.solid_angles.to_vec();
     angles.par_chunks_mut(width).enumerate().for_each(|(j, row)| {
-        for (i, angle) in row.iter_mut().enumerate().filter(|(_, angle)| **angle > 0.0) {
-            *angle = (f64::from(*angle) * refinement(source, i, j).unwrap_or(1.0)) as f32;
+        for (angle, refinement) in row.iter_mut().zip(refinements(source, j)).filter(|(angle, _)| **angle > 0.0) {
+            *angle = (f64::from(*angle) * refinement) as f32;
         }
     });
     Cow::Owned(angles)
 }
 
-/// Returns the mean of the solid angle at Gauss's points, over that at the centre; `None` where a point shows nothing.
-fn refinement(source: &Source, i: usize, j: usize) -> Option<f64> {
-    let PixelPoint { x, y } = PixelPoint::centre(i, j);
+/// Returns, for each texel of row `j`, the mean of the solid angle at Gauss's points over that at the centre; 1 where a point
+/// shows nothing.
+fn refinements(source: &Source, j: usize) -> Vec<f64> {
+    let PixelPoint { x, y } = PixelPoint::centre(0, j);
     let off = 0.5 / 3f64.sqrt();
     let corners = [(-off, -off), (off, -off), (-off, off), (off, off)];
-    let mut sum = 0.0;
+    let mut sums = vec![0.0; source.view.width()];
+    let add = |sum: &mut f64, angle: Option<f64>| *sum += angle.unwrap_or(f64::NAN);
     for (right, down) in corners {
-        sum += source.view.solid_angle(PixelPoint::new(x + right, y + down))?;
+        let first = PixelPoint::new(x + right, y + down);
+        source.view.solid_angles_from(first, sums.len(), |i, angle| add(&mut sums[i], angle));
     }
-    Some(sum / 4.0 / source.view.solid_angle(PixelPoint::new(x, y))?)
+    source.view.solid_angles_from(PixelPoint::new(x, y), sums.len(), |i, angle| {
+        let refinement = sums[i] / 4.0 / angle.unwrap_or(f64::NAN);
+        sums[i] = if refinement.is_finite() { refinement } else { 1.0 };
+    });
+    sums
 }
 
 #[cfg(test)]

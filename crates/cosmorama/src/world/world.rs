@@ -195,6 +195,8 @@ pub struct World {
     /// Views by direction, where they are many.
     index: Option<Arc<ViewIndex>>,
     pitches: Pitches,
+    /// Whether the first view is the only one, and shows every direction.
+    is_one_sphere: bool,
 }
 
 /// Sizes of the largest texels of a world's views, in radians.
@@ -281,7 +283,8 @@ impl World {
         let index = ViewIndex::of(&cones).map(Arc::new);
         overlap::share(&mut sources, index.as_deref());
         let pitches = Pitches::of(&sources);
-        Ok(Self { sources, index, pitches })
+        let is_one_sphere = matches!(&sources[..], [all] if all.mask.is_none() && all.view.covers_sphere());
+        Ok(Self { sources, index, pitches, is_one_sphere })
     }
 
     /// Returns the views.
@@ -310,6 +313,11 @@ impl World {
             }
         });
         Some(largest.1)
+    }
+
+    /// Returns the index of the view that [`World::owner`] finds: at once where there is but one choice.
+    pub(crate) fn owner_view(&self, direction: Direction) -> Option<usize> {
+        if self.is_one_sphere { Some(0) } else { self.owner(direction).map(|(view, _)| view) }
     }
 
     /// Calls `visit` with each view that shows a direction, the place in its image, and its share; the shares add to

@@ -104,7 +104,7 @@ impl PreparedPyramid<'_> {
     /// centre.
     fn number(&self, footprint: &Footprint) -> (f32, Option<usize>) {
         let holder = self.pinholes[0].as_ref().and_then(|pinholes| pinholes.holder(footprint.direction));
-        let view = holder.or_else(|| self.levels.world.owner(footprint.direction).map(|(view, _)| view));
+        let view = holder.or_else(|| self.levels.world.owner_view(footprint.direction));
         let level = self.rule.level(view, footprint, LevelNeed::default());
         let coarsest = self.levels.coarsest() as f32;
         (level.map_or(0.0, |level| level as f32).clamp(0.0, coarsest), view)

@@ -84,15 +84,18 @@ mod tests {
     fn closed_forms_are_what_differences_come_to() {
         let rect = PlaneRect { min: PlanePoint::new(-1.0, -0.7), max: PlanePoint::new(1.2, 0.8) };
         let grid = PixelGrid::spanning(400, 300, rect);
-        let view = View { projection: ProjectionKind::PERSPECTIVE, grid, ..panorama(4, 2) };
-        for (x, y) in [(3.0, 290.0), (200.0, 150.0), (390.5, 20.3)] {
-            let at = PixelPoint::new(x, y);
-            let [exact, found] = [Bend::in_closed_form(&view, at), Bend::around(&view, at)].map(Option::unwrap);
-            for (exact, found) in [(exact.uu, found.uu), (exact.uv, found.uv), (exact.vv, found.vv)] {
-                assert!(exact.distance(found) < 1e-6, "{exact} is not {found} at {at:?}");
+        let pinhole = View { projection: ProjectionKind::PERSPECTIVE, grid, ..panorama(4, 2) };
+        for view in [pinhole, panorama(4000, 3000)] {
+            for (x, y) in [(0.01, 0.97), (0.5, 0.5), (0.98, 0.07)] {
+                let at = PixelPoint::new(x * view.width() as f64, y * view.height() as f64);
+                let [exact, found] = [Bend::in_closed_form(&view, at), Bend::around(&view, at)].map(Option::unwrap);
+                for (exact, found) in [(exact.uu, found.uu), (exact.uv, found.uv), (exact.vv, found.vv)] {
+                    assert!(exact.distance(found) < 1e-6, "{exact} is not {found} at {at:?}");
+                }
             }
         }
-        assert_eq!(Bend::in_closed_form(&panorama(4, 2), PixelPoint::new(1.0, 1.0)), None);
+        let ball = View { projection: ProjectionKind::MIRROR_BALL, ..panorama(4, 2) };
+        assert_eq!(Bend::in_closed_form(&ball, PixelPoint::new(1.0, 1.0)), None);
     }
 
     #[test]

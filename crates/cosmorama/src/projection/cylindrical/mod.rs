@@ -25,6 +25,11 @@ pub trait Profile {
     /// Returns the latitude at a height, and its derivative; `None` beyond the poles.
     fn latitude(&self, height: f64) -> Option<(Latitude, f64)>;
 
+    /// Returns the latitude's second derivative at a height; `None` where no closed form is given.
+    fn second_derivative(&self, _height: f64) -> Option<f64> {
+        None
+    }
+
     /// Returns whether the latitude's derivative grows without bound towards the poles.
     fn has_steep_poles(&self) -> bool {
         false
@@ -108,6 +113,13 @@ impl<P: Profile> Projection for Cylindrical<P> {
 
     fn has_steep_rim(&self) -> bool {
         self.0.has_steep_poles()
+    }
+
+    fn curvature(&self, point: PlanePoint) -> Option<[DVec2; 3]> {
+        // Parallels curve to their pole by sin φ cos φ, and meridians converge by tan φ (the sphere's Christoffel symbols).
+        let second = self.0.second_derivative(point.y)?;
+        let (Latitude { sin, cos }, slope) = self.0.latitude(point.y)?;
+        Some([DVec2::new(0.0, sin * cos / slope), DVec2::new(-sin / cos * slope, 0.0), DVec2::new(0.0, second / slope)])
     }
 
     fn cap_bounds(&self, centre: Direction, radius: Angle) -> PlaneRect {

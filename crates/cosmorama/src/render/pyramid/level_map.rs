@@ -42,8 +42,11 @@ impl LevelMap {
                 let found = target.footprint(at).and_then(|footprint| {
                     let reach = (BESIDE_EDGE + step) as f64 * width(&footprint);
                     let is_cut = edge.is_some_and(|edge| edge.is_near(footprint.direction, reach));
-                    let view = world.owner(footprint.direction).map(|(view, _)| view);
-                    rule.level(view, &footprint, LevelNeed { is_cut, pixels_around: (step - 1) as f64 })
+                    rule.level(
+                        world.owner_view(footprint.direction),
+                        &footprint,
+                        LevelNeed { is_cut, pixels_around: (step - 1) as f64 },
+                    )
                 });
                 *level = found.map_or(f32::NAN, |level| level as f32);
             }

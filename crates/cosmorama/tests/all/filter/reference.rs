@@ -1,11 +1,14 @@
 //! The fast paths against the slow, obvious ones.
 
-use cosmorama::camera::View;
-use cosmorama::filter::{CrossSection, FilterKind, FilterSettings, Kernel, TextureDerivatives, WeightTable, ewa};
+use cosmorama::camera::{Footprint, View};
+use cosmorama::filter::{
+    CrossSection, Filter, FilterKind, FilterSettings, Kernel, TextureDerivatives, WeightTable, ewa,
+};
 use cosmorama::raster::{Image, Rgba};
 use cosmorama::render::{Arithmetic, Resampler};
 use cosmorama::sphere::{Angle, CubeFace, Direction, Orientation};
-use cosmorama::world::World;
+use cosmorama::world::{Light, World};
+use glam::DVec3;
 use testkit::{cube, equirect, fisheye, light_by_direction, light_by_texel, omnimax, perspective};
 
 fn render(world: &World, target: &View, filter: FilterSettings, light: &[Rgba]) -> Image<Rgba> {
@@ -142,6 +145,32 @@ fn every_filter_sees_the_same_picture() {
         for (index, (a, b)) in image.pixels().iter().zip(reference.pixels()).enumerate() {
             let worst = (0..4).map(|c| (a.0[c] - b.0[c]).abs()).fold(0.0, f32::max);
             assert!(worst < tolerance, "{kind:?} at pixel {index}: {worst}");
+        }
+    }
+}
+
+/// A kernel that takes pixels as circles does so for single footprints of every filter, as for pictures.
+#[test]
+fn round_kernels_take_one_footprint_as_a_circle() {
+    let world = cube(&CubeFace::ALL, 256, 256);
+    let light = Light::by_direction(&world, |direction| {
+        let [red, green, blue] = waves(direction);
+        Rgba::opaque(red, green, blue)
+    });
+    // Four times as wide as it is high.
+    let long = Footprint::new(Direction::FRONT, DVec3::X * 0.2, DVec3::NEG_Y * 0.05);
+    let kernel = Kernel { round: true, ..Kernel::uniform(CrossSection::Gaussian { alpha: 2.0, cutoff: 2.0 }) };
+    let average = |kind: FilterKind, footprint: &Footprint| {
+        let filter = FilterSettings { kind, kernel, anti_ringing: false };
+        filter.prepare(&world, &light).expect("a filter").average(footprint).0
+    };
+    let judge = FilterKind::Reference { samples: 16 };
+    let (circle, slow) = (average(judge, &long.rounded()), average(judge, &long));
+    for kind in [FilterKind::Ewa, FilterKind::EwaPyramid] {
+        let found = average(kind, &long);
+        for channel in 0..3 {
+            assert!((slow[channel] - circle[channel]).abs() < 1e-6, "{slow:?}, not {circle:?}");
+            assert!((slow[channel] - found[channel]).abs() < 5e-3, "{slow:?}, not {found:?} of {kind:?}");
         }
     }
 }
