@@ -67,6 +67,17 @@ fn prefer_large_pages(memory: *mut u8, _: usize) -> *mut u8 {
 pub(crate) fn give_back_pictures() {
     // SAFETY: `mallopt` takes any number, and affects only later allocations.
     unsafe { libc::mallopt(libc::M_MMAP_THRESHOLD, LARGE as libc::c_int) };
+    if has_limit_of_addresses() {
+        // Each thread's heap would reserve 64 MiB of addresses, used or not, which pictures then lack.
+        // SAFETY: as above.
+        unsafe { libc::mallopt(libc::M_ARENA_MAX, 1) };
+    }
+}
+
+/// Returns whether `ulimit -v` holds.
+#[cfg(all(target_os = "linux", target_env = "gnu"))]
+fn has_limit_of_addresses() -> bool {
+    rustix::process::getrlimit(rustix::process::Resource::As).current.is_some()
 }
 
 /// Does nothing: only glibc needs this.

@@ -1,7 +1,8 @@
 //! Streams as files. A picture that comes in is held in memory. A stream of many is read as it comes, or, where its frames are not asked
-//! for in their order, from a temporary folder. A picture that goes out is made in a temporary folder, and passed on when it is whole;
+//! for in their order, from a temporary file without a name. A picture that goes out is made in a temporary folder, and passed on when it is whole;
 //! a stream of many, picture by picture.
 
+use std::env::temp_dir;
 use std::fs::File;
 use std::io::{self, BufReader, Cursor, ErrorKind, IsTerminal, Read, Write, copy, stdin, stdout};
 use std::path::{Path, PathBuf};
@@ -10,10 +11,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Error, Result, anyhow};
 use cosmorama_convert::{Conversion, Files, InMemory, Name, PictureSink, is_video};
 use cosmorama_io::Format;
-use cosmorama_io::pending::{Scratch, Unfinished};
+use cosmorama_io::pending::{Scratch, nameless};
 
 use crate::args::ConvertArgs;
 use crate::console::{Console, say};
@@ -39,10 +40,8 @@ pub(crate) struct KeptStreams {
     has_stdin: bool,
     /// Whether streams of many pictures are read as they come.
     in_order: bool,
-    /// List of temporary files, where streams of many pictures are kept on disk; without it, they are in memory, too.
-    unfinished: Option<Unfinished>,
-    /// Folders of what is kept on disk.
-    folders: Vec<Scratch>,
+    /// Whether streams of many pictures are kept on disk; otherwise they are in memory, too.
+    is_on_disk: bool,
 }
 
 /// Bytes by which streams of many pictures are known.
@@ -83,18 +82,15 @@ impl KeptStreams {
         let kind = stream_kind(&begin).filter(|kind| is_video(Path::new(&format!("stream.{kind}"))));
         let mut source = Cursor::new(begin).chain(source);
         let held = kind.map_or_else(|| name.clone(), |kind| named(name, kind));
-        match self.unfinished.as_ref().filter(|_| kind.is_some()) {
-            Some(_) if self.in_order => self.files.insert_live(&held, BufReader::new(source)),
-            Some(unfinished) => {
-                let folder = folder(unfinished)?;
-                let path = folder.path().join("stream");
-                let mut file = File::create_new(&path).with_context(|| format!("cannot make {}", path.display()))?;
+        match kind {
+            Some(_) if self.is_on_disk && self.in_order => self.files.insert_live(&held, BufReader::new(source)),
+            Some(_) if self.is_on_disk => {
+                let mut file = nameless().map_err(|error| no_place("file", &error))?;
                 let kept = copy(&mut source, &mut file);
-                kept.with_context(|| format!("cannot copy {name} to {}, which may be full", path.display()))?;
-                self.files.insert_kept(&held, path);
-                self.folders.push(folder);
+                kept.with_context(|| format!("cannot copy {name} to {}, which may be full", temp_dir().display()))?;
+                self.files.insert_kept(&held, file);
             }
-            None => {
+            _ => {
                 let mut bytes = Vec::new();
                 source.read_to_end(&mut bytes).with_context(unread)?;
                 self.files.insert(&held, bytes);
@@ -177,15 +173,15 @@ impl Piped {
             if is_stream(format) {
                 sink = Some(PictureSink::new(StandardOutput { is_closed: Arc::clone(&is_closed) }));
             } else {
-                path = scratch.insert(folder(&console.unfinished)?).path().join(path);
+                let folder = Scratch::create(&console.unfinished).map_err(|error| no_place("folder", &error))?;
+                path = scratch.insert(folder).path().join(path);
             }
             console.call(&path, STDOUT);
             args.output = path.into();
         }
         let settings: Conversion = args.clone().into();
         let in_order = settings.reads_in_order();
-        let unfinished = Some(console.unfinished.clone());
-        let mut kept = KeptStreams { in_order, unfinished, ..KeptStreams::default() };
+        let mut kept = KeptStreams { in_order, is_on_disk: true, ..KeptStreams::default() };
         args.input = kept.input(&args.input)?;
         args.backdrop = args.backdrop.map(|backdrop| kept.input(&backdrop)).transpose()?;
         Ok(Self { args, files: kept.files(), sink, is_closed, scratch, _kept: kept })
@@ -236,16 +232,13 @@ impl Write for StandardOutput {
     }
 }
 
-/// Makes a folder for what comes from standard input or goes to standard output.
-fn folder(unfinished: &Unfinished) -> Result<Scratch> {
-    Scratch::create(unfinished).map_err(|error| {
-        let place = std::env::temp_dir();
-        anyhow!(
-            "no folder for what is piped can be made in {} ({}); name one where you may write, as in TMPDIR=/var/tmp",
-            place.display(),
-            error.kind()
-        )
-    })
+/// Returns the error for a folder or file that cannot be made among the system's temporary files.
+fn no_place(what: &str, error: &io::Error) -> Error {
+    anyhow!(
+        "no {what} for what is piped can be made in {} ({}); name a folder where you may write, as in TMPDIR=/var/tmp",
+        temp_dir().display(),
+        error.kind()
+    )
 }
 
 fn check(args: &ConvertArgs, to_stdout: bool) -> Result<()> {

@@ -224,7 +224,7 @@ impl Run<'_> {
         self.look(frame, &light);
         let pictures = stages.alone(Stage::Filter, || self.render(frame, &light))?;
         let (carried, origin) = (light.carried(), job.origin_of(frame.frame)?);
-        light.check_unchanged(&*job.files)?;
+        light.check_unchanged(job)?;
         drop(light);
         let write = || {
             let outputs = frame.files.par_iter().zip(pictures);

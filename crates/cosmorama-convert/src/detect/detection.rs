@@ -14,7 +14,7 @@ use crate::detect::pixels::{damage_of, is_small, light_of};
 use crate::detect::{Continuity, Evidence, Examined, Guess, Readings, Seen, disc, seams};
 use crate::diagnostic::{Code, Diagnostic, FROM, Remedy, Result, Setting, Severity, bail, usage, usage_as};
 use crate::packing::canvas::canvas_of;
-use crate::source::{Access, DecodedPicture, Files};
+use crate::source::{Access, DecodedPicture, Files, MemoryBudget};
 
 /// Detects the projection of an image without `--from`, which may hold a picture for each eye. A guess is announced.
 pub(crate) fn detect(
@@ -269,7 +269,7 @@ pub fn likely(files: &dyn Files, path: &Path, header: &Header, reads_all: bool) 
     // A part of a larger picture is not looked at, whatever the guess says.
     let has_looked = guess.has_looked() && header.window.is_none() && is_small(header);
     let is_unread = reads_all && !has_looked && is_small(header);
-    let damage = damage.or_else(|| if is_unread { damage_of(files, path) } else { None });
+    let damage = damage.or_else(|| if is_unread { damage_of(files, path, MemoryBudget::new(None)) } else { None });
     let circle = match guess {
         Guess::Blank(Evidence::Disc(found)) => Some(found),
         _ => None,

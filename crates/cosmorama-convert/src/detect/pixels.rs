@@ -8,7 +8,6 @@ use cosmorama::circle::{Circle, Found};
 use cosmorama::layout::{Arrangement, CubeLayout, LayoutKind};
 use cosmorama::raster::{EncodedImage, FramePool, Image, Rgba, Samples, Transfer, Uniform};
 use cosmorama_io::{Choice, Header, ImageFile, IoError, Limits};
-use rayon::prelude::*;
 
 use crate::detect::oval::is_oval;
 use crate::detect::{Circles, Continuity, Twins, cross_variants, seams};
@@ -52,24 +51,27 @@ fn decoded(files: &dyn Files, path: &Path) -> Result<ImageFile, IoError> {
     read(files, path, &Limits::memory(limit))
 }
 
-/// Returns the damage of a file whose pixels cannot be read; `None` also for one that is too large for memory. Channels that
+/// Returns the damage of a file whose pixels cannot be read; `None` also for one that is too large for the memory. Channels that
 /// form no picture are read, too.
-pub fn damage_of(files: &dyn Files, path: &Path) -> Option<String> {
+pub fn damage_of(files: &dyn Files, path: &Path, memory: MemoryBudget) -> Option<String> {
     let choice = Choice { without_picture: true, ..files.choice() };
-    let limits = Limits::memory(MemoryBudget::new(None).bytes);
-    let memory = (&limits, &FramePool::default());
-    match read_choice(files, path, memory, &choice) {
+    let limits = Limits::memory(memory.bytes);
+    match read_choice(files, path, (&limits, &FramePool::default()), &choice) {
         Ok(_) | Err(IoError::TooLarge { .. }) => None,
         Err(error) => Some(error.to_string()),
     }
 }
 
 /// Replaces an error about what files seem to lack by the error about damage, if the pixels of one of them cannot be
-/// read.
-pub(crate) fn unless_damaged(files: &dyn Files, paths: Vec<PathBuf>, error: ConvertError) -> ConvertError {
+/// read. They are read one by one: the memory is for one of them.
+pub(crate) fn unless_damaged(
+    (files, memory): (&dyn Files, MemoryBudget),
+    paths: Vec<PathBuf>,
+    error: ConvertError,
+) -> ConvertError {
     let is_of_content = matches!(error.code(), Code::Uncovered | Code::WrongSize | Code::Geometry | Code::Ambiguous);
-    let damage = |path: PathBuf| if is_of_content { damage_of(files, &path) } else { None };
-    paths.into_par_iter().find_map_first(damage).map_or(error, |damage| failed_as(Code::Damaged, damage))
+    let damage = |path: PathBuf| if is_of_content { damage_of(files, &path, memory) } else { None };
+    paths.into_iter().find_map(damage).map_or(error, |damage| failed_as(Code::Damaged, damage))
 }
 
 /// Finding from the blank areas of an image.

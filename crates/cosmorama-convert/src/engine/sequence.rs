@@ -213,7 +213,7 @@ impl<'a> Sequence<'a> {
     {
         let Self { job, engine, stages, .. } = *self;
         let origin = job.origin_of(frame.frame)?.map(Arc::<str>::from);
-        light.check_unchanged(&*job.files).at(|| named(frame))?;
+        light.check_unchanged(job).at(|| named(frame))?;
         let words = FrameWords { place: turn.place - 1, carried: light.carried(), origin };
         let write = |((_, path), levels): (&(usize, PathBuf), Levels)| {
             let (path, words) = (path.clone(), words.clone());

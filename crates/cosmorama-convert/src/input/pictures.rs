@@ -129,7 +129,7 @@ impl Input {
             },
         };
         let found = Self::of_file((pattern, files), (&path, header), shape, warnings);
-        let (views, faces) = found.map_err(|error| unless_damaged(access.files, vec![path], error))?;
+        let (views, faces) = found.map_err(|error| unless_damaged((access.files, access.memory), vec![path], error))?;
         Ok(Self { worlds: vec![views], frames, faces, beside: Vec::new() })
     }
 

@@ -258,7 +258,8 @@ impl ConvertJob {
             let first = job.input.frames.first().map_or_else(Vec::new, |frame| job.input.paths(*frame));
             let files = Arc::clone(&job.files);
             let frames = job.input.frames.clone();
-            job.cover(&frames, warnings).map_err(|error| unless_damaged(&*files, first, error))?;
+            let memory = job.memory;
+            job.cover(&frames, warnings).map_err(|error| unless_damaged((&*files, memory), first, error))?;
         }
         job.find_blur(content, warnings)?;
         content.check_last(settings, format, job.light.depth, warnings)?;
@@ -406,6 +407,11 @@ impl ConvertJob {
             known = Some(colours.transfer);
             fits && header.depth == Depth::Eight && !header.channels.has_alpha() && colours.conversion.is_none()
         })
+    }
+
+    /// Returns whether a later run can keep outputs and make the others; a video is made whole or not at all.
+    pub(crate) fn is_resumable(&self) -> bool {
+        !self.target.format.is_video()
     }
 
     /// Returns whether the filter should keep light and can be balanced: `--kernel light` without anti-ringing, whose

@@ -135,7 +135,9 @@ impl Outputs {
                 let numbered = if self.go_on { numbered(&job.target) } else { Vec::new() };
                 let others = self.paths().filter(|path| !numbered.iter().any(|numbered| numbered == path));
                 let all = others.chain(numbered.iter().map(PathBuf::as_path));
-                refuse_existing_or(all, &format!(", or keep what is there with {RESUME}"))?;
+                let keep =
+                    if job.is_resumable() { format!(", or keep what is there with {RESUME}") } else { String::new() };
+                refuse_existing_or(all, &keep)?;
             }
             Existing::Refuse | Existing::Replace => {}
         }
@@ -159,6 +161,8 @@ pub(crate) struct Space {
     pub(crate) all: u64,
     /// Bytes that are free, with those of files that are replaced; `None` where the system does not tell.
     pub(crate) free: Option<u64>,
+    /// Whether a later run makes what does not fit.
+    is_resumable: bool,
 }
 
 impl Space {
@@ -177,7 +181,8 @@ impl Space {
         let folder = frames.first().and_then(|frame| frame.files.first()).and_then(|(_, path)| path.parent());
         let folder = folder.filter(|_| !job.outputs.is_passed_on);
         let free = folder.and_then(free_space).map(|free| free.saturating_add(replaced));
-        Self { frame, all: frame.saturating_mul(frames.len() as u64), free }
+        let all = frame.saturating_mul(frames.len() as u64);
+        Self { frame, all, free, is_resumable: job.is_resumable() }
     }
 
     /// Returns the warning about a sequence that does not fit.
@@ -185,9 +190,14 @@ impl Space {
         let free = self.free.filter(|free| *free < self.all && outputs.frames.len() > 1)?;
         let path = outputs.paths().next()?;
         let fitting = free / self.frame.max(1);
+        let then = if self.is_resumable {
+            format!("the frame is named, and {RESUME} goes on")
+        } else {
+            "nothing is left of it".to_owned()
+        };
         let message = format!(
             "{} frames need about {} of disk, but only {} are free where {} goes, room for about {fitting}; free some, or write elsewhere. \
-             If it runs full, the frame is named, and {RESUME} goes on",
+             If it runs full, {then}",
             outputs.frames.len(),
             human(self.all),
             human(free),
@@ -347,7 +357,7 @@ mod tests {
             |number: u64| FrameOutputs { frame: Some(number), files: vec![(0, format!("dome_{number}.png").into())] };
         let of = |count: u64| Outputs { frames: (1..=count).map(frame).collect(), ..Outputs::default() };
         let told = |free: Option<u64>, count: u64| {
-            let warning = Space { frame: 1 << 30, all: count << 30, free }.warning(&of(count))?;
+            let warning = Space { frame: 1 << 30, all: count << 30, free, is_resumable: true }.warning(&of(count))?;
             Some((warning.code, warning.to_string()))
         };
         let (code, message) = told(Some(25 << 28), 10).unwrap();

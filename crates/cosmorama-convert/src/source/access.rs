@@ -1,8 +1,9 @@
 use std::collections::BTreeMap;
 use std::fmt::Debug;
-use std::io::{self, BufRead, Cursor, Read};
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Cursor, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 
 use cosmorama::raster::FramePool;
 use cosmorama_io::pending::Unfinished;
@@ -12,6 +13,7 @@ use cosmorama_io::{
 };
 
 use super::decoded_picture::DecodedPicture;
+use super::lock::lock;
 use super::stamp::Stamp;
 use crate::source::MemoryBudget;
 use crate::source::video::{DamagedFrames, FrameName, RawBytes, RawFiles, Videos};
@@ -57,7 +59,7 @@ pub struct LiveStream(Mutex<Option<Box<dyn BufRead + Send>>>);
 
 impl LiveStream {
     fn take(&self) -> Option<Box<dyn BufRead + Send>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).take()
+        lock(&self.0).take()
     }
 }
 
@@ -156,8 +158,8 @@ pub struct InMemory {
 #[derive(Clone)]
 enum Held {
     Memory(Arc<[u8]>),
-    /// In a file of another name.
-    Disk(PathBuf),
+    /// In another file, which may have no name.
+    Disk(Arc<Mutex<File>>),
     /// As they come, once.
     Live(Arc<LiveStream>),
 }
@@ -168,15 +170,41 @@ impl InMemory {
         self.files.insert(name.into(), Held::Memory(bytes.into()));
     }
 
-    /// Adds a file that is too long for memory, whose bytes are in another file on disk.
-    pub fn insert_kept(&mut self, name: impl Into<PathBuf>, kept: PathBuf) {
-        self.files.insert(name.into(), Held::Disk(kept));
+    /// Adds a file that is too long for memory, whose bytes are in another file on disk. That may have no name any more.
+    pub fn insert_kept(&mut self, name: impl Into<PathBuf>, kept: File) {
+        self.files.insert(name.into(), Held::Disk(Arc::new(Mutex::new(kept))));
     }
 
     /// Adds a stream of raw pictures that is read once, as it comes. Its name says what it is: `.y4m`, `.pam` or `.pfm`.
     pub fn insert_live(&mut self, name: impl Into<PathBuf>, bytes: impl BufRead + Send + 'static) {
         let stream = LiveStream(Mutex::new(Some(Box::new(bytes))));
         self.files.insert(name.into(), Held::Live(Arc::new(stream)));
+    }
+}
+
+/// Reader of a file that others read, too, by the same descriptor: each has its own place.
+struct KeptReader {
+    file: Arc<Mutex<File>>,
+    place: u64,
+}
+
+impl Read for KeptReader {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        let mut file = lock(&self.file);
+        file.seek(SeekFrom::Start(self.place))?;
+        let read = file.read(bytes)?;
+        self.place += read as u64;
+        Ok(read)
+    }
+}
+
+impl Seek for KeptReader {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        let mut file = lock(&self.file);
+        // The descriptor may be at another reader's place.
+        file.seek(SeekFrom::Start(self.place))?;
+        self.place = file.seek(to)?;
+        Ok(self.place)
     }
 }
 
@@ -190,7 +218,7 @@ impl Files for InMemory {
     fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek + Send>, IoError> {
         match self.files.get(path) {
             Some(Held::Memory(bytes)) => Ok(Box::new(Cursor::new(Arc::clone(bytes)))),
-            Some(Held::Disk(kept)) => Disk.open(kept),
+            Some(Held::Disk(kept)) => Ok(Box::new(BufReader::new(KeptReader { file: Arc::clone(kept), place: 0 }))),
             Some(Held::Live(_)) => {
                 let source =
                     io::Error::new(io::ErrorKind::NotSeekable, "a stream can be read once, and from its beginning");

@@ -202,14 +202,23 @@ impl Header {
     /// Refuses a header that declares more pixels than so many bytes can hold, before anything is done for each of so many
     /// pixels: no compression is without limits.
     pub(crate) fn check_capacity(&self, path: &Path, bytes: u64, pixels_per_byte: u64) -> Result<(), IoError> {
-        let Self { format, width, height, .. } = *self;
-        let most = u128::from(bytes) * u128::from(pixels_per_byte);
-        if width as u128 * height as u128 <= most {
-            return Ok(());
-        }
-        let reason = format_args!("its {bytes} bytes cannot hold {width}x{height} pixels");
-        Err(IoError::damaged(path, format, reason))
+        check_capacity(path, self.format, (self.width, self.height), (bytes, pixels_per_byte))
     }
+}
+
+/// Refuses a size of more pixels than so many bytes can hold, with so many pixels in each.
+pub(crate) fn check_capacity(
+    path: &Path,
+    format: Format,
+    (width, height): (usize, usize),
+    (bytes, pixels_per_byte): (u64, u64),
+) -> Result<(), IoError> {
+    let most = u128::from(bytes) * u128::from(pixels_per_byte);
+    if width as u128 * height as u128 <= most {
+        return Ok(());
+    }
+    let reason = format_args!("its {bytes} bytes cannot hold {width}x{height} pixels");
+    Err(IoError::damaged(path, format, reason))
 }
 
 /// Returns the header of a file, unless it declares more pixels than the file can hold.

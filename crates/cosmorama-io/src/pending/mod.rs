@@ -2,8 +2,8 @@
 //!
 //! [`write`](crate::write()) writes to a temporary file beside the output, and renames it when it is complete.
 //! Meanwhile the file is listed in [`Unfinished`]. An interrupt handler calls [`Unfinished::remove_all`] before the
-//! program ends, so that no partial file stays behind. Files left by a killed program are named `.cosmorama-*.part`; the next
-//! run that writes into their folder removes them.
+//! program ends, so that no partial file stays behind. Files and folders left by a killed program are named
+//! `.cosmorama-MACHINE-PROCESS-*.part`; the next run that writes into their folder removes them.
 //! Folders that are created for outputs ([`NewFolders`]) are listed, too, and removed if they stay empty. A [`PendingFolder`] appears
 //! with all of its files.
 
@@ -132,13 +132,14 @@ pub struct Scratch {
 }
 
 impl Scratch {
-    /// Creates an empty folder among the system's temporary files.
+    /// Creates an empty folder among the system's temporary files, and removes those of programs that were killed.
     ///
     /// # Errors
     /// When the folder cannot be created.
     pub fn create(unfinished: &Unfinished) -> io::Result<Self> {
+        unfinished.sweep(&std::env::temp_dir());
         let (folder, _listed) = unfinished.list(|| {
-            let folder = Builder::new().prefix(PREFIX).tempdir()?;
+            let folder = Builder::new().prefix(&unfinished.owner().prefix()).suffix(SUFFIX).tempdir()?;
             Ok((folder.path().to_owned(), folder))
         })?;
         Ok(Self { folder, _listed })
@@ -148,6 +149,14 @@ impl Scratch {
     pub fn path(&self) -> &Path {
         self.folder.path()
     }
+}
+
+/// Creates a private file among the system's temporary files that has no name: it goes with the process, however that ends.
+///
+/// # Errors
+/// When the file cannot be created.
+pub fn nameless() -> io::Result<File> {
+    tempfile::tempfile()
 }
 
 /// A file in progress. Dropped without [`Pending::finish`], it leaves nothing behind.

@@ -9,6 +9,12 @@ use super::{PREFIX, SUFFIX};
 /// Time without a change after which a file counts as left, whoever makes it.
 const LONG: Duration = Duration::from_secs(24 * 60 * 60);
 
+/// Random characters in a name, of which `tempfile` takes so many.
+const RANDOM: usize = 6;
+
+/// Machine in names where the system tells none.
+const UNKNOWN: &str = "0.0";
+
 /// Owner of temporary files: a process, as its files' names and the system tell it.
 #[derive(Debug)]
 pub(super) struct Owner {
@@ -27,14 +33,15 @@ impl Owner {
         Self { machine: machine(), process: this_process(), user: user() }
     }
 
-    /// Returns the beginning of the names of its temporary files.
+    /// Returns the beginning of the names of its temporary files. Random characters and [`SUFFIX`] follow.
     pub(super) fn prefix(&self) -> String {
-        let both = self.machine.as_ref().zip(self.process.as_ref());
-        both.map_or_else(|| PREFIX.to_owned(), |(machine, process)| format!("{PREFIX}{machine}-{process}-"))
+        let both = self.machine.as_deref().zip(self.process.as_deref());
+        let (machine, process) = both.unwrap_or((UNKNOWN, "0"));
+        format!("{PREFIX}{machine}-{process}-")
     }
 
     /// Removes from a folder the temporary files, and folders of such, whose process is gone. Files of other machines go after a day
-    /// without a change. What cannot be removed stays.
+    /// without a change. What cannot be removed stays, and so does what has another name than temporary files have.
     pub(super) fn sweep(&self, folder: &Path) {
         let entries = fs::read_dir(folder).into_iter().flatten().flatten();
         for entry in entries.filter(|entry| self.is_left(entry)) {
@@ -47,9 +54,9 @@ impl Owner {
 
     fn is_left(&self, entry: &DirEntry) -> bool {
         let name = entry.file_name();
-        let middle = name.to_str().and_then(|name| name.strip_prefix(PREFIX)?.strip_suffix(SUFFIX));
+        let maker = name.to_str().and_then(Maker::of_name);
         let is_ours = || entry.metadata().is_ok_and(|found| self.is_user_of(&found));
-        middle.is_some_and(|middle| is_ours() && (self.is_beside_gone(middle) || is_old(entry)))
+        maker.is_some_and(|maker| is_ours() && (self.is_beside_gone(&maker) || is_old(entry)))
     }
 
     /// Returns whether a file belongs to this process's user.
@@ -64,14 +71,36 @@ impl Owner {
         self.user.is_none()
     }
 
-    /// Returns whether a name is that of a file of this machine, whose process is gone.
-    fn is_beside_gone(&self, middle: &str) -> bool {
-        let of = |machine: &String| {
-            middle.strip_prefix(machine.as_str())?.strip_prefix('-')?.split('-').next()?.parse::<u32>().ok()
-        };
-        let process = self.machine.as_ref().and_then(of);
-        process.is_some_and(|process| !Path::new("/proc").join(process.to_string()).exists())
+    /// Returns whether a file was made on this machine, by a process that is gone.
+    fn is_beside_gone(&self, maker: &Maker<'_>) -> bool {
+        let is_beside = self.machine.as_deref() == Some(maker.machine);
+        is_beside && !Path::new("/proc").join(maker.process.to_string()).exists()
     }
+}
+
+/// Machine and process that a temporary file's name tells.
+struct Maker<'a> {
+    machine: &'a str,
+    process: u32,
+}
+
+impl<'a> Maker<'a> {
+    /// Reads a name; `None` if it is not of the whole form that [`Owner::prefix`] begins, and may be a file of the user's own.
+    fn of_name(name: &'a str) -> Option<Self> {
+        let (maker, random) = name.strip_prefix(PREFIX)?.strip_suffix(SUFFIX)?.rsplit_once('-')?;
+        let (machine, process) = maker.rsplit_once('-')?;
+        let (start, space) = machine.split_once('.')?;
+        let is_made = is_all(start, char::is_ascii_hexdigit)
+            && is_all(space, char::is_ascii_digit)
+            && random.len() == RANDOM
+            && is_all(random, char::is_ascii_alphanumeric);
+        Some(Self { machine, process: process.parse().ok()? }).filter(|_| is_made)
+    }
+}
+
+/// Returns whether a text is of such characters alone, and not empty.
+fn is_all(text: &str, of: fn(&char) -> bool) -> bool {
+    !text.is_empty() && text.chars().all(|letter| of(&letter))
 }
 
 fn this_process() -> Option<String> {
@@ -120,18 +149,23 @@ mod tests {
         // Numbers of processes are smaller.
         let gone = format!(".cosmorama-{machine}-4194305-abcdef.part");
         let alive = format!(".cosmorama-{machine}-{}-abcdef.part", this_process().unwrap());
-        let (elsewhere, old) = (".cosmorama-0123.45-4194305-abcdef.part", ".cosmorama-abcdef.part");
+        let (elsewhere, old) = (".cosmorama-0123.45-4194305-abcdef.part", ".cosmorama-0123.45-7-abcdef.part");
+        let own = [".cosmorama-abcdef.part", ".cosmorama-my-4194305-notes.part"].map(str::to_owned);
+        let almost = [gone.replace("abcdef", "abcdefg"), gone.replace("4194305", "4194305x")];
         make(&gone);
         fs::create_dir(folder.path().join(gone.replace("abcdef", "folder"))).unwrap();
         std::os::unix::fs::symlink("/", folder.path().join(gone.replace("abcdef", "linked"))).unwrap();
         for name in [&alive, elsewhere, "mine.part", ".cosmorama-mine"] {
             make(name);
         }
-        make(old).set_modified(SystemTime::now() - 2 * LONG).unwrap();
+        // Names of another form are the user's own, however old.
+        for name in own.iter().chain(&almost).map(String::as_str).chain([old]) {
+            make(name).set_modified(SystemTime::now() - 2 * LONG).unwrap();
+        }
         let begun = Pending::create(&folder.path().join("out.png"), &Unfinished::default()).unwrap();
         drop(begun);
         let names = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
         let expected = [alive.as_str(), elsewhere, "mine.part", ".cosmorama-mine"].map(str::to_owned);
-        assert_eq!(names.collect::<BTreeSet<_>>(), BTreeSet::from(expected));
+        assert_eq!(names.collect::<BTreeSet<_>>(), expected.into_iter().chain(own).chain(almost).collect());
     }
 }

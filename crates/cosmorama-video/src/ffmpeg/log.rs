@@ -40,7 +40,7 @@ impl Log {
             let mut pipe = BufReader::new(pipe);
             let mut line = Vec::new();
             while pipe.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut line).is_ok_and(|read| read > 0) {
-                if let Some(event) = event(&String::from_utf8_lossy(&line)) {
+                for event in told_by(&String::from_utf8_lossy(&line)) {
                     // Nobody listens any more once the reader is dropped; the pipe is emptied all the same.
                     let _ = sender.send(event);
                 }
@@ -87,30 +87,37 @@ const LEVELS: [&str; 3] = ["[error] ", "[fatal] ", "[panic] "];
 /// are dropped, and then missed by their numbers.
 const HARMLESS: [&str; 3] = ["co located POCs unavailable", "mmco: unref short failure", "Last message repeated"];
 
-/// Returns the event that a line tells; `None` for other messages.
-fn event(line: &str) -> Option<Event> {
+/// Returns the events that a line tells, in their order; none for other messages.
+fn told_by(line: &str) -> Vec<Event> {
     // First, since names of files are part of it, and may look like anything.
     if line.contains("corrupt decoded frame") {
-        return Some(Event::Corrupt);
+        return vec![Event::Corrupt];
     }
-    let is_error = LEVELS.iter().any(|level| line.contains(level));
-    if let (false, Some((_, rest))) = (is_error, line.split_once("frame:"))
-        && rest.starts_with(|c: char| c.is_ascii_digit())
-        && let Some((_, rest)) = rest.split_once("pts:")
-    {
-        let time = rest.split_whitespace().next().and_then(|ticks| ticks.parse().ok());
-        return Some(Event::Frame(time));
-    }
-    let is_harmless = HARMLESS.iter().any(|words| line.contains(words));
-    (is_error && !is_harmless).then(|| Event::Complaint(without_marks(line)))
+    let (words, time) = frame(line).map_or((line, None), |(before, time)| (before, Some(time)));
+    let is_error = LEVELS.iter().any(|level| words.contains(level));
+    let is_harmless = HARMLESS.iter().any(|harmless| words.contains(harmless));
+    let complaint = (is_error && !is_harmless).then(|| Event::Complaint(without_marks(words)));
+    complaint.into_iter().chain(time.map(Event::Frame)).collect()
+}
+
+/// Returns the time of a frame that a line tells at its end, and what stands before: decoders write messages in pieces, so that a frame
+/// of another thread may come before the rest.
+fn frame(line: &str) -> Option<(&str, Option<i64>)> {
+    let (before, rest) = line.rsplit_once("frame:")?;
+    let mut words = rest.split_whitespace();
+    words.next()?.parse::<u64>().ok()?;
+    let ticks = words.next()?.strip_prefix("pts:")?;
+    words.next()?.strip_prefix("pts_time:")?;
+    words.next().is_none().then(|| (before, ticks.parse().ok()))
 }
 
 /// Returns a message without addresses in memory and levels.
 fn without_marks(line: &str) -> String {
-    let mut text = line.trim();
+    let mut text = line;
     for level in LEVELS {
         text = text.split_once(level).map_or(text, |(_, rest)| rest);
     }
+    let text = if text.trim().is_empty() { "it names no cause" } else { text.trim() };
     text.chars().filter(|letter| !letter.is_control()).take(400).collect()
 }
 
@@ -120,6 +127,11 @@ mod tests {
 
     #[test]
     fn lines_tell_frames_damage_and_errors() {
+        let event = |line: &str| {
+            let mut told = told_by(line);
+            assert!(told.len() <= 1, "{told:?}");
+            told.pop()
+        };
         assert_eq!(event("frame:1    pts:512     pts_time:0.04\n"), Some(Event::Frame(Some(512))));
         assert_eq!(event("[png @ 0x5] frame:1    pts:NOPTS   pts_time:NOPTS"), Some(Event::Frame(None)));
         assert_eq!(event("c=1\n"), None);
@@ -135,6 +147,17 @@ mod tests {
         assert_eq!(event(damaged), Some(Event::Corrupt));
         assert_eq!(event("[warning] my frame: pts: of old"), None);
         assert_eq!(event("[h264 @ 0x55db] [error] co located POCs unavailable"), None);
+    }
+
+    // A decoder's thread has written a part of its message when another one tells a frame.
+    #[test]
+    fn a_frame_within_a_message_is_heard() {
+        let both = |cause: &str| vec![Event::Complaint(cause.to_owned()), Event::Frame(Some(18432))];
+        let frame = "frame:36   pts:18432   pts_time:1.44\n";
+        let told = |begin: &str| told_by(&(begin.to_owned() + frame));
+        assert_eq!(told("[png @ 0x55db] [error] CRC mismatch in chunk"), both("CRC mismatch in chunk"));
+        assert_eq!(told("[png @ 0x55db] [error] "), both("it names no cause"));
+        assert_eq!(told("[png @ 0x55db] "), [Event::Frame(Some(18432))]);
     }
 
     #[test]

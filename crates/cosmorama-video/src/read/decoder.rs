@@ -74,8 +74,7 @@ impl Decoder {
         let rows = raw.rows(info.size().1, options.rows.as_ref());
         let mut command = ffmpeg.ffmpeg_command();
         command.args(Log::OPTIONS).args(input_limits());
-        // What is damaged is an error, and its frame is missed; otherwise it is painted over.
-        command.args(["-err_detect", "crccheck+bitstream+buffer+explode", "-copyts", "-noautorotate"]);
+        command.args(["-err_detect", detection(info), "-copyts", "-noautorotate"]);
         let is_painted = is_painted(ffmpeg, info);
         if is_painted {
             // Decoders of several frames at a time would not tell which of them they mean.
@@ -193,6 +192,15 @@ impl Decoder {
         let complaint = self.log.rest();
         let status = self.child.wait().map_err(failed)?;
         Ok(Next::End(Ended { is_success: status.success(), complaint }))
+    }
+}
+
+/// Returns what ffmpeg takes for damage: that is an error, and its frame is missed; otherwise it is painted over.
+fn detection(info: &VideoInfo) -> &'static str {
+    match info.codec.as_str() {
+        // Bits that are left over behind a slice, too. Decoders of other codecs take more for damage then, which may be none.
+        "h264" => "crccheck+bitstream+buffer+explode+aggressive",
+        _ => "crccheck+bitstream+buffer+explode",
     }
 }
 

@@ -6,12 +6,12 @@ use std::ffi::OsString;
 use super::{Carried, Container, FrameTimes, WriteSettings, timecode};
 use crate::ffmpeg::{input_limits, url};
 use crate::probe::is_boxes;
-use crate::{OtherStream, StreamKind};
+use crate::{OtherStream, StreamKind, VideoInfo};
 
 /// Arguments for what is copied.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Plan {
-    /// Arguments of the second input.
+    /// Arguments of the second input, and of the third.
     pub(super) input: Vec<OsString>,
     /// Arguments of the output.
     pub(super) output: Vec<String>,
@@ -30,6 +30,9 @@ enum Answer {
     Code(&'static str),
     Leave,
 }
+
+/// Seconds in which nothing is seen or heard.
+const INSTANT: f64 = 1e-3;
 
 /// Seconds below which a shift is a rounding error.
 const NOTHING: f64 = 1e-4;
@@ -51,8 +54,9 @@ impl Plan {
         if let Some(seconds) = seconds {
             let length = (seconds.end - seconds.start).max(0.0);
             plan.input.extend(["-t".to_owned(), format!("{length:.6}")].map(OsString::from));
-            // Chapters that begin later are left out by the output's length alone. No frame is at its very end.
-            plan.output.extend(["-t".to_owned(), format!("{:.6}", length + 0.5 / settings.rate().to_f64())]);
+            // Chapters that begin later are left out by the output's length alone; one that begins at its very end would be empty.
+            let shorter = (0.25 / settings.rate().to_f64()).min(INSTANT);
+            plan.output.extend(["-t".to_owned(), format!("{:.6}", length - shorter)]);
         }
         plan.input.extend([OsString::from("-i"), url(&info.path)]);
         for stream in &info.others {
@@ -63,12 +67,22 @@ impl Plan {
             }
         }
         plan.fields = container.has_boxes() && is_boxes(&info.container);
-        plan.output.extend(["-map_metadata", "1", "-map_chapters", "1"].map(str::to_owned));
+        let chapters = if is_later && info.chapters > 0 { plan.add_chapters(info, start) } else { "1" };
+        plan.output.extend(["-map_metadata", "1", "-map_chapters", chapters].map(str::to_owned));
         for name in ["major_brand", "minor_version", "compatible_brands"] {
             plan.output.extend(["-metadata".to_owned(), format!("{name}=")]);
         }
         plan.add_timecode(settings);
         plan
+    }
+
+    /// Adds the file once more, for its chapters alone, and returns the input's number: they are taken from an instant later on, without one
+    /// that ends where the part begins.
+    fn add_chapters(&mut self, info: &VideoInfo, start: f64) -> &'static str {
+        self.input.extend(input_limits().map(OsString::from));
+        self.input.extend(["-ss".to_owned(), format!("{:.6}", start + INSTANT)].map(OsString::from));
+        self.input.extend([OsString::from("-i"), url(&info.path)]);
+        "2"
     }
 
     fn add(&mut self, stream: &OtherStream, container: Container, is_later: bool) {

@@ -85,6 +85,25 @@ fn a_part_has_its_own_sound_and_time_code() {
     assert!((0.55..0.68).contains(&seconds), "{seconds}");
 }
 
+/// A chapter of which a part has no frame is left out, at both ends.
+#[test]
+fn a_part_has_no_empty_chapters() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let info = source(&ffmpeg, folder.path());
+    for name in ["a.mp4", "a.mkv"] {
+        for (part, frames, title) in [(0.0..1.0, 25, "One"), (1.0..2.0, 25, "Two"), (0.4..0.6, 5, "One")] {
+            let path = folder.path().join(name);
+            write(&ffmpeg, &path, &settings(&info, Some(part.clone())), frames).unwrap();
+            let titles = probed(&path, "-show_entries chapter_tags=title -of csv=p=0");
+            assert_eq!(titles.split_whitespace().collect::<Vec<_>>(), [title], "{name}, {part:?}");
+            let pictures =
+                probed(&path, "-count_frames -select_streams v -show_entries stream=nb_read_frames -of csv=p=0");
+            assert_eq!(pictures.trim(), frames.to_string(), "{name}, {part:?}");
+        }
+    }
+}
+
 /// Sound that a container cannot hold is coded anew, and that is told.
 #[test]
 fn what_cannot_be_copied_is_told() {

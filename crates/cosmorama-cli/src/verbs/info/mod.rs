@@ -13,8 +13,8 @@ use anyhow::Result;
 use cosmorama::circle::{Circle, Found};
 use cosmorama::raster::Transfer;
 use cosmorama_convert::{
-    Builtin, Files, Name, ThinAlpha, ViewFiles, damage_of, existing_frames, face_set, is_one_file, light_of, likely,
-    probe, with_videos,
+    Builtin, Files, MemoryBudget, Name, ThinAlpha, ViewFiles, damage_of, existing_frames, face_set, is_one_file,
+    light_of, likely, probe, with_videos,
 };
 use cosmorama_io::{Choice, EnvMap, FacePattern, Header, ProfileFault, probe_chosen};
 use serde_json::{Value, json};
@@ -152,7 +152,8 @@ pub(super) fn damages(inputs: &dyn Files, files: &ViewFiles, frames: &[u64]) -> 
         [] => vec![files.path(None)],
         frames => frames.iter().map(|frame| files.path(Some(*frame))).collect(),
     };
-    paths.iter().filter_map(|path| damage_of(inputs, path)).collect()
+    let memory = MemoryBudget::new(None);
+    paths.iter().filter_map(|path| damage_of(inputs, path, memory)).collect()
 }
 
 pub(super) fn add_damage(report: &mut Value, damaged: Vec<String>) {

@@ -236,6 +236,42 @@ fn a_stream_is_kept_where_its_end_must_be_known() {
     }
 }
 
+/// A killed conversion leaves nothing of the stream that it has kept, and the folder of its output only until the next.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_killed_conversion_leaves_no_stream_behind() {
+    let bench = Bench::new();
+    let kept = || std::fs::read_dir(bench.path("temporary")).unwrap().count();
+    let mut chain = Chain::start(&bench, &["-", "--format", "pam", "--yaw", "0..90"]);
+    chain.put(&(0..3).flat_map(sky).collect::<Vec<u8>>());
+    let files = format!("/proc/{}/fd", chain.child.id());
+    let links = || std::fs::read_dir(&files).unwrap().flatten().filter_map(|file| std::fs::read_link(file.path()).ok());
+    wait_until(|| links().any(|link| link.starts_with(bench.path("temporary"))));
+    chain.child.kill().unwrap();
+    chain.child.wait().unwrap();
+    assert_eq!(kept(), 0);
+
+    let mut chain = Chain::start(&bench, &["-", "--format", "png"]);
+    wait_until(|| kept() == 1);
+    chain.child.kill().unwrap();
+    chain.child.wait().unwrap();
+    assert_eq!(kept(), 1, "nobody could remove it");
+    let mut next = Chain::start(&bench, &["-", "--format", "png"]);
+    next.put(&sky(0));
+    let (code, _, told) = next.end();
+    assert_eq!((code, kept()), (Some(0), 0), "{told}");
+}
+
+/// Waits until something is so, a minute at most.
+#[cfg(target_os = "linux")]
+fn wait_until(is_so: impl Fn() -> bool) {
+    let begun = std::time::Instant::now();
+    while !is_so() {
+        assert!(begun.elapsed() < Duration::from_secs(60), "it never is");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
 /// The most memory that a process has held, in KiB.
 #[cfg(target_os = "linux")]
 fn most_memory(process: u32) -> u64 {

@@ -469,7 +469,9 @@ fn settings_of_videos_are_checked_before_work() {
     assert_says(&refused(&bench, 2, ["film.mkv", "a.avi"], &[]), &["a.avi", ".mkv"]);
     assert_says(&refused(&bench, 2, ["film.mkv", "film.mkv"], &["-y"]), &["would replace its own input"]);
     std::fs::write(bench.path("a.mkv"), "kept").unwrap();
-    assert_says(&refused(&bench, 1, ["film.mkv", "a.mkv"], &[]), &["a.mkv exists; replace it with -y"]);
+    let told = refused(&bench, 1, ["film.mkv", "a.mkv"], &[]);
+    assert_says(&told, &["a.mkv exists; replace it with -y"]);
+    assert!(!told.contains("--resume"), "{told}");
     assert_eq!(bench.bytes("a.mkv"), b"kept");
     assert_says(&refused(&bench, 1, ["none.mkv", "b.mkv"], &[]), &["none.mkv"]);
     convert(&bench, ["film.mkv", "a.mkv"], &["-y", "--video-args", "-metadata 'title=A dome'"]);

@@ -13,7 +13,7 @@ use crate::colour::{FileColours, LightConversion};
 use crate::diagnostic::{RESUME, Result, bail};
 use crate::engine::{FrameFile, Stage, Stages, ViewImage, Which};
 use crate::job::{BAND, ConvertJob};
-use crate::source::{Files, Stamp};
+use crate::source::Stamp;
 
 /// Light of a frame. Its memory, and views that do not change, are reused for the next frame.
 pub(crate) struct FrameLight {
@@ -127,13 +127,18 @@ impl FrameLight {
     ///
     /// # Errors
     /// When one has, or is gone.
-    pub(crate) fn check_unchanged(&self, files: &dyn Files) -> Result<()> {
+    pub(crate) fn check_unchanged(&self, job: &ConvertJob) -> Result<()> {
         let stamped = self.read.iter().flatten().filter_map(|(path, stamp)| Some((path, (*stamp)?)));
-        let changed = stamped.filter(|(path, stamp)| files.stamp(path) != Some(*stamp)).map(|(path, _)| path).next();
+        let changed =
+            stamped.filter(|(path, stamp)| job.files.stamp(path) != Some(*stamp)).map(|(path, _)| path).next();
         let Some(path) = changed.map(|path| path.display()) else { return Ok(()) };
+        let then = if job.is_resumable() {
+            format!("make the frames that are left with {RESUME}")
+        } else {
+            "begin again".to_owned()
+        };
         bail!(
-            Changed: "{path}: it was changed or removed while its picture was converted; leave inputs alone meanwhile, and make the frames \
-             that are left with {RESUME}"
+            Changed: "{path}: it was changed or removed while its picture was converted; leave inputs alone meanwhile, and {then}"
         )
     }
 

@@ -23,7 +23,7 @@ use super::selection::Selection;
 use super::window::Crop;
 use crate::codec::behind::{count_marks, next_bytes, skip_padding};
 use crate::codec::interface::DEFLATE;
-use crate::codec::interface::{Source, contained, held, is_beside_others, whole_image};
+use crate::codec::interface::{Source, check_capacity, contained, is_beside_others, whole_image};
 use crate::{Attribute, Carried, Choice, EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata};
 
 const FORMAT: Format = Format::Exr;
@@ -44,9 +44,29 @@ pub(crate) fn probe(path: &Path, source: Source<'_>, choice: &Choice) -> Result<
     let attributes = attributes::read(path, &mut *source)?;
     let reader = open(path, &mut *source)?;
     let (header, selection, _) = announce(path, reader.headers(), Wanted::Picture(choice))?;
-    let most = pixels_per_byte(&reader.headers()[selection.part]);
+    let data = DataWindow::of(&reader.headers()[selection.part]);
     drop(reader);
-    held(path, source, with_attributes(header, attributes, selection.part), most)
+    data.check(path, source)?;
+    Ok(with_attributes(header, attributes, selection.part))
+}
+
+/// Size of all data of a part, of which the picture may be a little, and how they are packed.
+struct DataWindow {
+    size: (usize, usize),
+    pixels_per_byte: u64,
+}
+
+impl DataWindow {
+    fn of(part: &Part) -> Self {
+        let size = (part.layer_size.width(), part.layer_size.height());
+        Self { size, pixels_per_byte: pixels_per_byte(part) }
+    }
+
+    /// Refuses more pixels than the file can hold, also those that are cut off from the picture.
+    fn check(&self, path: &Path, source: Source<'_>) -> Result<(), IoError> {
+        let bytes = source.seek(SeekFrom::End(0)).map_err(|error| IoError::open(path, error))?;
+        check_capacity(path, FORMAT, self.size, (bytes, self.pixels_per_byte))
+    }
 }
 
 /// Returns the most pixels that a byte of a file can hold; each has at least two bytes.
@@ -71,9 +91,10 @@ pub(crate) fn probe_pairs(path: &Path, source: Source<'_>) -> Result<Header, IoE
     attributes::read(path, &mut *source)?;
     let reader = open(path, &mut *source)?;
     let (header, selection, _) = announce(path, reader.headers(), Wanted::Pair)?;
-    let most = pixels_per_byte(&reader.headers()[selection.part]);
+    let data = DataWindow::of(&reader.headers()[selection.part]);
     drop(reader);
-    held(path, source, header, most)
+    data.check(path, source)?;
+    Ok(header)
 }
 
 /// Reads the first part that holds a picture, at its largest resolution.

@@ -130,15 +130,24 @@ fn giant(extension: &str, bytes: &[u8]) -> String {
 /// An OpenEXR file of a few bytes that declares a square of this side, in so many chunks.
 fn exr_of(side: u16, chunks: i32) -> Vec<u8> {
     let mut exr = written("exr");
-    let last = (i32::from(side) - 1).to_le_bytes();
-    for name in [&b"dataWindow\0box2i\0"[..], &b"displayWindow\0box2i\0"[..]] {
-        let at = exr.windows(name.len()).position(|bytes| bytes == name).unwrap() + name.len() + 4;
-        exr[at + 8..at + 16].copy_from_slice(&[last, last].concat());
-    }
-    let name = b"chunkCount\0int\0";
-    let at = exr.windows(name.len()).position(|bytes| bytes == name).unwrap() + name.len() + 4;
+    let last = i32::from(side) - 1;
+    put_box(&mut exr, b"dataWindow\0box2i\0", [last, last]);
+    put_box(&mut exr, b"displayWindow\0box2i\0", [last, last]);
+    let at = value_of(&exr, b"chunkCount\0int\0");
     exr[at..at + 4].copy_from_slice(&chunks.to_le_bytes());
     exr
+}
+
+/// Place of an attribute's value, by its name and its type.
+fn value_of(exr: &[u8], attribute: &[u8]) -> usize {
+    let at = exr.windows(attribute.len()).position(|bytes| bytes == attribute).unwrap();
+    at + attribute.len() + 4
+}
+
+/// Writes the last column and row of a window.
+fn put_box(exr: &mut [u8], attribute: &[u8], last: [i32; 2]) {
+    let at = value_of(exr, attribute);
+    exr[at + 8..at + 16].copy_from_slice(&last.map(i32::to_le_bytes).concat());
 }
 
 /// A little-endian TIFF: width, height, 8 bits, no compression, RGB, one strip of nothing.
@@ -180,9 +189,7 @@ fn giant_sizes_are_refused_before_memory_is_taken() {
     let mut exr = exr_of(65535, 4096);
     giant("exr", &exr);
     // A small display window hides nothing: the data window counts.
-    let name = b"displayWindow\0box2i\0";
-    let at = exr.windows(name.len()).position(|bytes| bytes == name).unwrap() + name.len() + 4;
-    exr[at + 8..at + 16].copy_from_slice(&[9, 0, 0, 0, 9, 0, 0, 0]);
+    put_box(&mut exr, b"displayWindow\0box2i\0", [9, 9]);
     giant("exr", &exr);
 
     giant("tif", &giant_tiff());
@@ -202,12 +209,16 @@ fn what_a_file_is_too_short_for_is_refused_by_its_header() {
     dds[12..16].copy_from_slice(&edge);
     dds[16..20].copy_from_slice(&edge);
     let hdr = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 65535 +X 65535\n".to_vec();
+    let mut window = exr_of(65535, 4096);
+    put_box(&mut window, b"displayWindow\0box2i\0", [9, 9]);
     let files = [
         ("png", png, "983040x3840"),
         ("jpg", jpeg, "30000x15000"),
         ("tga", tga, "32639x32639"),
         ("hdr", hdr, "65535x65535"),
         ("exr", exr_of(65535, 4096), "65535x65535"),
+        // The picture is small, but not the data of which it is a part.
+        ("exr", window, "65535x65535"),
         ("tif", giant_tiff(), "65535x65535"),
         ("dds", dds, "5000x30000"),
     ];
@@ -322,9 +333,7 @@ fn textures_that_lie_about_their_size() {
 #[test]
 fn a_map_on_a_giant_canvas_is_refused() {
     let mut exr = written("exr");
-    let name = b"displayWindow\0box2i\0";
-    let at = exr.windows(name.len()).position(|bytes| bytes == name).unwrap() + name.len() + 4;
-    exr[at + 8..at + 16].copy_from_slice(&[0x3f, 0x42, 0x0f, 0, 0x3f, 0x42, 0x0f, 0]);
+    put_box(&mut exr, b"displayWindow\0box2i\0", [999_999, 999_999]);
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("map.exr");
     std::fs::write(&path, &exr).unwrap();
