@@ -2,7 +2,7 @@
 #![no_main]
 
 use cosmorama::raster::{Image, Rgba};
-use cosmorama_fuzz::{prepare, work_alone, written};
+use cosmorama_fuzz::{prepare, written};
 use cosmorama_scene::{Model, ModelSettings, PictureKind, PictureReader, PictureSource};
 use libfuzzer_sys::fuzz_target;
 
@@ -20,7 +20,7 @@ impl PictureReader for Small {
     }
 }
 
-fuzz_target!(init: { work_alone(); prepare(seeds) }, |bytes: &[u8]| {
+fuzz_target!(init: prepare(seeds), |bytes: &[u8]| {
     let model = match bytes {
         [b'{', ..] => written("a.gltf", bytes),
         [b'g', b'l', b'T', b'F', ..] => written("a.glb", bytes),

@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 
 use cosmorama::raster::{Channels, Depth};
 use cosmorama_convert::{Conversion, Existing};
-use cosmorama_fuzz::{path, picture, prepare, work_alone, written};
+use cosmorama_fuzz::{path, picture, prepare, written};
 use cosmorama_io::{Format, FrameList, Metadata, WriteOptions, probe, write, write_to};
 use libfuzzer_sys::fuzz_target;
 
@@ -26,7 +26,7 @@ fn dome(existing: Existing) -> Conversion {
     conversion.frames(FrameList::new(1..=1)).existing(existing).threads(1)
 }
 
-fuzz_target!(init: { work_alone(); prepare(seeds) }, |bytes: &[u8]| {
+fuzz_target!(init: prepare(seeds), |bytes: &[u8]| {
     let honest = HONEST.as_str();
     let Ok(text) = str::from_utf8(bytes) else { return };
     let metadata = Metadata { origin: Some(text.to_owned()), ..Metadata::default() };

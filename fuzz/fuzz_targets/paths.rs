@@ -4,11 +4,11 @@
 use std::io::ErrorKind;
 use std::path::Path;
 
-use cosmorama_fuzz::{prepare, work_alone};
+use cosmorama_fuzz::prepare;
 use cosmorama_io::{CameraPath, PathSource};
 use libfuzzer_sys::fuzz_target;
 
-fuzz_target!(init: { work_alone(); prepare(Vec::new) }, |bytes: &[u8]| {
+fuzz_target!(init: prepare(Vec::new), |bytes: &[u8]| {
     // Tables are told by their text, glTF by its name.
     for (name, fps, is_of_input) in [("a", None, false), ("a", Some(25.0), true), ("a.gltf", Some(25.0), false)] {
         let beside = |_: &Path| Err(ErrorKind::NotFound.into());

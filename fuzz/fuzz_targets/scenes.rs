@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use cosmorama::raster::{Image, Rgba};
-use cosmorama_fuzz::{prepare, work_alone};
+use cosmorama_fuzz::prepare;
 use cosmorama_scene::{ModelSettings, Object, PictureKind, PictureReader, PictureSource, SceneFile, SceneReader};
 use libfuzzer_sys::fuzz_target;
 
@@ -25,7 +25,7 @@ impl SceneReader for Small {
     fn tell(&mut self, _: &Path, _: &str) {}
 }
 
-fuzz_target!(init: { work_alone(); prepare(Vec::new) }, |bytes: &[u8]| {
+fuzz_target!(init: prepare(Vec::new), |bytes: &[u8]| {
     let Ok(text) = str::from_utf8(bytes) else { return };
     let Ok(file) = SceneFile::parse("scene.toml", text) else { return };
     file.camera();

@@ -2,19 +2,19 @@
 #![no_main]
 
 use cosmorama::raster::{Channels, Depth};
-use cosmorama_fuzz::{picture, prepare, work_alone};
+use cosmorama_fuzz::{picture, prepare};
 use cosmorama_video::{
     ByteOrder, PamReader, PamWriter, PfmReader, PfmWriter, Ratio, Subsampling, Y4mFormat, Y4mReader, Y4mWriter,
 };
 use libfuzzer_sys::fuzz_target;
 
 /// Memory that a frame may take.
-const MEMORY: u64 = 1 << 24;
+const MEMORY: u64 = 1 << 20;
 
 /// Frames that are read of a stream: some kilobytes hold many that are small.
 const MOST: usize = 8;
 
-fuzz_target!(init: { work_alone(); prepare(seeds) }, |bytes: &[u8]| {
+fuzz_target!(init: prepare(seeds), |bytes: &[u8]| {
     if let Ok(mut reader) = Y4mReader::new(bytes, "in", MEMORY) {
         (0..MOST).take_while(|_| matches!(reader.next_frame(), Ok(Some(_)))).for_each(drop);
     }

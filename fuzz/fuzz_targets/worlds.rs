@@ -6,7 +6,7 @@ use std::sync::{Arc, LazyLock};
 
 use cosmorama::raster::{Channels, Depth};
 use cosmorama_convert::{Conversion, InMemory};
-use cosmorama_fuzz::{path, picture, prepare, work_alone};
+use cosmorama_fuzz::{path, picture, prepare};
 use cosmorama_io::{Format, FrameList, WriteOptions, write_to};
 use libfuzzer_sys::fuzz_target;
 
@@ -26,7 +26,7 @@ static BESIDE: LazyLock<InMemory> = LazyLock::new(|| {
     files
 });
 
-fuzz_target!(init: { work_alone(); prepare(Vec::new) }, |bytes: &[u8]| {
+fuzz_target!(init: prepare(Vec::new), |bytes: &[u8]| {
     let name = if bytes.starts_with(b"[") { "m/world.toml" } else { "m/two.pto" };
     let mut files = BESIDE.clone();
     files.insert(name, bytes.to_vec());

@@ -8,14 +8,17 @@ use cosmorama_io::Limits;
 use tempfile::TempDir;
 
 /// Memory that a file of a few kilobytes may take.
-pub const MEMORY: Limits = Limits::memory(1 << 24);
+pub const MEMORY: Limits = Limits::memory(1 << 20);
 
 /// Name of the environment variable with the folder that seeds are written to.
 const SEEDS: &str = "COSMORAMA_SEEDS";
 
-/// Prepares a target. Panics are reported as libFuzzer does, unless a decoder's caller is going to catch them, as in the program.
+/// Prepares a target. Its thread is the only one: handing small work to others would take longer than the work. Panics are reported
+/// as libFuzzer does, unless a decoder's caller is going to catch them, as in the program.
 /// Seeds, each with its name, are written to the folder that `COSMORAMA_SEEDS` names: before libFuzzer reads it.
 pub fn prepare(seeds: impl FnOnce() -> Vec<(String, Vec<u8>)>) {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread();
+    pool.build_global().expect("no other pool is there yet");
     let report = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {
         if !cosmorama_io::is_contained() {
@@ -26,13 +29,6 @@ pub fn prepare(seeds: impl FnOnce() -> Vec<(String, Vec<u8>)>) {
     for (name, bytes) in seeds() {
         std::fs::write(folder.join(name), bytes).expect("the folder of seeds is there and takes files");
     }
-}
-
-/// Makes this thread the only one: handing small work to others would take longer than the work. Image files are read by several
-/// threads, as in the program.
-pub fn work_alone() {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread();
-    pool.build_global().expect("no other pool is there yet");
 }
 
 /// Returns the path of a file for readers that open files by name, in a folder of this process.

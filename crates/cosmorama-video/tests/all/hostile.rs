@@ -325,9 +325,10 @@ fn boxed(name: &[u8; 4], content: &[u8]) -> Vec<u8> {
     [&(content.len() as u32 + 8).to_be_bytes(), &name[..], content].concat()
 }
 
-/// The description of a film with one track, whose handler has this name.
-fn description(handler: &[u8; 4]) -> Vec<u8> {
-    let descriptions = boxed(b"stsd", &[&[0, 0, 0, 0, 0, 0, 0, 1], &boxed(b"avc1", &[0; 78])[..]].concat());
+/// The description of a film with one track, whose handler has this name, with bytes behind what all descriptions have.
+fn description(handler: &[u8; 4], behind: &[u8]) -> Vec<u8> {
+    let entry = boxed(b"avc1", &[&[0; 78], behind].concat());
+    let descriptions = boxed(b"stsd", &[&[0, 0, 0, 0, 0, 0, 0, 1], &entry[..]].concat());
     let table = boxed(b"minf", &boxed(b"stbl", &descriptions));
     let handler = boxed(b"hdlr", &[&[0; 8], &handler[..], &[0; 4]].concat());
     boxed(b"moov", &boxed(b"trak", &boxed(b"mdia", &[handler, table].concat())))
@@ -339,14 +340,15 @@ fn films_whose_tags_would_not_be_found_again_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("film.mp4");
     let tags = SpatialTags::vr180();
-    let (film, frames, open) = (description(b"vide"), boxed(b"mdat", b"frames"), b"\0\0\0\0mdatframes".to_vec());
+    let (film, frames, open) = (description(b"vide", b""), boxed(b"mdat", b"frames"), b"\0\0\0\0mdatframes".to_vec());
     for whole in [vec![&film], vec![&frames, &film], vec![&film, &frames]] {
         std::fs::write(&path, whole.into_iter().flatten().copied().collect::<Vec<u8>>()).unwrap();
         tags.write(&path).unwrap();
         assert_eq!(SpatialTags::read(&path).unwrap(), Some(tags));
     }
     for (strange, says) in [
-        (vec![description(b"soun"), frames.clone()], "no track of video"),
+        (vec![description(b"soun", b""), frames.clone()], "no track of video"),
+        (vec![description(b"vide", b"\0\0\0\0avcC"), frames.clone()], "no size of its own"),
         (vec![film.clone(), open], "no whole boxes"),
         (vec![film.clone(), frames.clone(), b"\0\0\0".to_vec()], "no whole boxes"),
         (vec![film.clone(), frames, film], "is another"),
