@@ -116,7 +116,7 @@ fn turn(value: &Value) -> Option<Turn> {
     match (found, value["tags"]["rotate"].as_str()) {
         (Some(data), _) => match text(data, "displaymatrix") {
             Some(matrix) => Turn::of_matrix(matrix),
-            None => Turn::of_degrees(-data["rotation"].as_i64()?),
+            None => Turn::of_degrees(data["rotation"].as_i64()?.checked_neg()?),
         },
         (None, Some(degrees)) => Turn::of_degrees(degrees.parse().ok()?),
         (None, None) => Some(Turn::default()),

@@ -13,14 +13,14 @@ impl Turn {
     /// Returns the turn of a display matrix as ffprobe prints it, three rows of numbers behind colons; `None` for matrices that turn
     /// by other angles, or scale.
     pub(super) fn of_matrix(text: &str) -> Option<Self> {
-        const ONE: i64 = 1 << 16;
+        const ONE: u64 = 1 << 16;
         let rows = text.lines().filter_map(|line| line.split_once(':')).map(|(_, row)| row);
         let numbers: Vec<i64> = rows.flat_map(str::split_whitespace).filter_map(|word| word.parse().ok()).collect();
         let &[a, b, _, c, d, ..] = numbers.as_slice() else { return None };
         // A point moves from (x, y) to (ax + cy, bx + dy).
-        match (a.abs(), b.abs(), c.abs(), d.abs()) {
-            (ONE, 0, 0, ONE) => Some(Self { is_transposed: false, is_mirrored: a < 0, is_flipped: d < 0 }),
-            (0, ONE, ONE, 0) => Some(Self { is_transposed: true, is_mirrored: c < 0, is_flipped: b < 0 }),
+        match [a, b, c, d].map(i64::unsigned_abs) {
+            [ONE, 0, 0, ONE] => Some(Self { is_transposed: false, is_mirrored: a < 0, is_flipped: d < 0 }),
+            [0, ONE, ONE, 0] => Some(Self { is_transposed: true, is_mirrored: c < 0, is_flipped: b < 0 }),
             _ => None,
         }
     }

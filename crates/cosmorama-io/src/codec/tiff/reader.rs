@@ -18,11 +18,22 @@ const EXPECTED: &str = "grey or RGB, with or without alpha, of 8 or 16 bits or f
 pub(super) const ICC_PROFILE: Tag = Tag::Unknown(34675);
 
 pub(crate) fn probe(path: &Path, source: Source<'_>) -> Result<Header, IoError> {
-    let mut decoder = Decoder::new(source).map_err(|error| damaged(path, &error))?;
+    let mut decoder = opened(path, source)?;
     let mut header = header(path, &mut decoder)?;
     check_capacity(path, &mut decoder, &header)?;
     header.metadata.notes.extend(beside(path, &mut decoder)?);
     Ok(header)
+}
+
+/// Opens a file, unless one of its texts cannot be in it: of each of those the decoder would print a line.
+fn opened<'a>(path: &Path, source: Source<'a>) -> Result<Decoder<Source<'a>>, IoError> {
+    let unread = |error| IoError::open(path, error);
+    if let Some((tag, count)) = extent::endless_text(source).map_err(unread)? {
+        let reason = format_args!("its tag {tag} has a text of {count} bytes, more than texts and the file have");
+        return Err(IoError::damaged(path, FORMAT, reason));
+    }
+    source.rewind().map_err(unread)?;
+    Decoder::new(source).map_err(|error| damaged(path, &error))
 }
 
 /// Refuses a header that declares more pixels than its strips or tiles can hold. Several may lie in the same place.
@@ -74,7 +85,7 @@ fn beside(path: &Path, decoder: &mut Decoder<Source<'_>>) -> Result<Option<Strin
 
 pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
     let file: Source<'_> = &mut *source;
-    let mut decoder = Decoder::new(file).map_err(|error| damaged(path, &error))?;
+    let mut decoder = opened(path, file)?;
     let header = header(path, &mut decoder)?;
     limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
     let mode = alpha_mode(&mut decoder);

@@ -253,6 +253,41 @@ fn pictures_of_one_colour_are_not_called_too_short() {
     }
 }
 
+/// A text of which the decoder would print a line of its own, for the user to wonder at.
+#[test]
+fn texts_longer_than_their_tiff_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("texts.tif");
+    // Width, or the program's name, of the type of texts: by 32 bits, and by 64 (BigTIFF).
+    for tag in [256_u16, 305] {
+        let classic =
+            [&b"II*\0\x08\0\0\0\x01\0"[..], &tag.to_le_bytes(), b"\x02\0\xff\xff\xff\xff\x08\0\0\0\0\0\0\0"].concat();
+        let start = b"II+\0\x08\0\0\0\x10\0\0\0\0\0\0\0\x01\0\0\0\0\0\0\0";
+        let big = [&start[..], &tag.to_le_bytes(), b"\x02\0\xff\xff\xff\xff\0\0\0\0", &[0; 16]].concat();
+        for bytes in [classic, big] {
+            std::fs::write(&path, &bytes).unwrap();
+            for error in [probe(&path).map(drop).unwrap_err(), read(&path, &Limits::default()).map(drop).unwrap_err()] {
+                let message = error.to_string();
+                assert!(matches!(error, IoError::Damaged { .. }), "{message}");
+                assert!(message.contains(&format!("tag {tag} has a text of 4294967295 bytes")), "{message}");
+            }
+        }
+    }
+}
+
+/// Files behind a TIFF, each of a page that names itself as the next.
+#[test]
+fn pages_that_follow_themselves_end() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("circles.tif");
+    let circle = b"II*\0\x08\0\0\0\x01\0\0\x01\x04\0\x01\0\0\0\x01\0\0\0\x08\0\0\0";
+    std::fs::write(&path, [written("tif"), circle.repeat(2000)].concat()).unwrap();
+    let start = Instant::now();
+    let error = read(&path, &Limits::default()).map(drop).unwrap_err().to_string();
+    assert!(error.contains("circles.tif") && error.contains("one behind the other"), "{error}");
+    assert!(start.elapsed() < LONGEST, "{:?}", start.elapsed());
+}
+
 #[test]
 fn an_absurd_width_is_told_and_not_called_damage() {
     let folder = tempfile::tempdir().unwrap();

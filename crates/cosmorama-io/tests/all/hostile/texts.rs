@@ -162,6 +162,17 @@ fn texts_of_other_programs_never_panic() {
     }
 }
 
+#[test]
+fn gltf_shorter_than_its_own_header_is_refused() {
+    let beside = |_: &Path| Err(std::io::ErrorKind::NotFound.into());
+    let source = PathSource { name: Path::new("a.glb"), fps: None, node: None, is_of_input: false, beside: &beside };
+    for length in [0_u32, 11] {
+        let bytes = [b"glTF\x02\0\0\0", &length.to_le_bytes()[..], &[0; 20]].concat();
+        let error = CameraPath::read(&bytes, &source).unwrap_err().to_string();
+        assert!(error.contains("a.glb") && error.contains(&format!("it has {length} bytes")), "{error}");
+    }
+}
+
 /// Each pose brings a name of its own: a table of all names for all poses would have 80 gigabytes.
 #[test]
 fn more_names_than_programs_write_are_refused() {

@@ -12,8 +12,8 @@ use crate::VideoError;
 pub(super) struct Movie {
     pub(super) content: Vec<u8>,
     start: u64,
-    /// Whether nothing comes behind it.
-    is_last: bool,
+    /// Place behind it.
+    end: u64,
 }
 
 /// Largest `moov` that is read: it grows with the number of frames, ten hours take some ten megabytes.
@@ -40,7 +40,7 @@ impl Movie {
                 let mut content = vec![0; (head.size - head.header) as usize];
                 file.seek(SeekFrom::Start(start + head.header)).map_err(unread)?;
                 file.read_exact(&mut content).map_err(unread)?;
-                return Ok(Self { content, start, is_last: start + head.size == length });
+                return Ok(Self { content, start, end: start + head.size });
             }
             start += head.size;
         }
@@ -55,11 +55,17 @@ impl Movie {
         };
         let new = boxed(b"moov", content).map_err(|reason| VideoError::Boxes { path: path.to_owned(), reason })?;
         let mut file = OpenOptions::new().read(true).write(true).open(path).map_err(failed)?;
-        let start = if self.is_last { SeekFrom::Start(self.start) } else { SeekFrom::End(0) };
-        let start = file.seek(start).map_err(failed)?;
+        let length = file.metadata().map_err(failed)?.len();
+        let is_last = self.end == length;
+        if !is_last && !is_tiled(&mut file, self.end, length).map_err(failed)? {
+            let reason = "behind its box moov is another, or bytes that are no whole boxes; make the file again";
+            return Err(VideoError::Boxes { path: path.to_owned(), reason: reason.to_owned() });
+        }
+        let start = if is_last { self.start } else { length };
+        file.seek(SeekFrom::Start(start)).map_err(failed)?;
         file.write_all(&new).map_err(failed)?;
         file.set_len(start + new.len() as u64).map_err(failed)?;
-        if !self.is_last {
+        if !is_last {
             // Now that the new one is there, the old one is passed over.
             file.seek(SeekFrom::Start(self.start + 4)).map_err(failed)?;
             file.write_all(b"free").map_err(failed)?;
@@ -68,11 +74,24 @@ impl Movie {
     }
 }
 
+/// Returns whether other boxes that have sizes of their own follow each other from a place to the end: a `moov` is found behind them.
+fn is_tiled(file: &mut File, mut start: u64, length: u64) -> io::Result<bool> {
+    for _ in 0..MOST_BOXES {
+        match Head::read(file, start, length)? {
+            Some(head) if !head.is_open && head.name != *b"moov" => start += head.size,
+            _ => break,
+        }
+    }
+    Ok(start == length)
+}
+
 /// Beginning of a box.
 struct Head {
     name: [u8; 4],
     header: u64,
     size: u64,
+    /// Whether it goes on to the end of the file, wherever that is.
+    is_open: bool,
 }
 
 impl Head {
@@ -86,7 +105,8 @@ impl Head {
         let (mut size, mut name, mut large) = ([0; 4], [0; 4], [0; 8]);
         file.read_exact(&mut size)?;
         file.read_exact(&mut name)?;
-        let (size, header) = match u32::from_be_bytes(size) {
+        let told = u32::from_be_bytes(size);
+        let (size, header) = match told {
             0 => (rest, 8),
             1 if rest >= 16 => {
                 file.read_exact(&mut large)?;
@@ -94,6 +114,6 @@ impl Head {
             }
             size => (u64::from(size), 8),
         };
-        Ok((header..=rest).contains(&size).then_some(Self { name, header, size }))
+        Ok((header..=rest).contains(&size).then_some(Self { name, header, size, is_open: told == 0 }))
     }
 }

@@ -23,8 +23,12 @@ pub(super) fn read(path: &Path) -> Result<Option<SpatialTags>, VideoError> {
 }
 
 pub(super) fn write(path: &Path, tags: &SpatialTags) -> Result<(), VideoError> {
-    let boxes = tags::write(tags).map_err(|reason| VideoError::Boxes { path: path.to_owned(), reason })?;
+    let refused = |reason| VideoError::Boxes { path: path.to_owned(), reason };
+    let boxes = tags::write(tags).map_err(refused)?;
     let movie = Movie::read(path)?;
+    if tracks::extensions(&movie.content, Handler::Video).map_err(|fault| damaged(path, &fault))?.is_empty() {
+        return Err(refused("it has no track of video, which the tags are of; expected one".to_owned()));
+    }
     let content = tracks::with_extensions(&movie.content, Handler::Video, &[b"st3d", b"sv3d"], &[Some(boxes)]);
     movie.replace(path, &content.map_err(|fault| damaged(path, &fault))?)
 }

@@ -1,7 +1,7 @@
 //! Tracks of a movie, and the boxes that extend their first description of samples.
 
 use super::Fault;
-use super::tree::{Name, boxed, get, replaced, split};
+use super::tree::{Boxed, Name, boxed, get, replaced, split};
 
 /// Kind of a track.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,8 +77,11 @@ fn with_extension(track: &[u8], handler: Handler, old: &[&Name], added: &[u8]) -
         let first = split(descriptions)?.first().copied().ok_or("a track has no description")?;
         let (fixed, boxes) =
             first.content.split_at_checked(handler.fixed(first.content)).ok_or("a description is too short")?;
-        let kept = split(boxes)?.into_iter().filter(|found| !old.contains(&&found.name));
-        let kept = kept.flat_map(|found| found.whole.iter().copied()).collect::<Vec<_>>();
+        let kept: Vec<_> = split(boxes)?.into_iter().filter(|found| !old.contains(&&found.name)).collect();
+        if kept.iter().any(Boxed::is_open) {
+            return Err("a box in a description has no size of its own, and would hold what is added".to_owned());
+        }
+        let kept = kept.iter().flat_map(|found| found.whole.iter().copied()).collect::<Vec<_>>();
         let entry = boxed(&first.name, &[fixed, &kept, added].concat())?;
         Ok([head, &entry, &descriptions[first.whole.len()..]].concat())
     };

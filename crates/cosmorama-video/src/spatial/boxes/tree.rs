@@ -15,6 +15,13 @@ pub(super) struct Boxed<'a> {
     pub(super) whole: &'a [u8],
 }
 
+impl Boxed<'_> {
+    /// Returns whether it goes on to the end of what holds it, wherever that is.
+    pub(super) fn is_open(&self) -> bool {
+        self.whole.starts_with(&[0; 4])
+    }
+}
+
 /// Boxes of a content at most.
 const MOST: usize = 1 << 16;
 

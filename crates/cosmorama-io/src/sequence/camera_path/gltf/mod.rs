@@ -28,6 +28,15 @@ const MOST_TURNS: usize = 20_000_000;
 /// Greatest error of a frame's number by the rounding of its time.
 const ROUNDED: f64 = 1e-3;
 
+/// Bytes of the header of glTF in one file.
+const HEADER: u32 = 12;
+
+/// Returns the number of bytes that a file says it has, if it is glTF in one file. The crate takes its header's from it unseen.
+fn told_length(bytes: &[u8]) -> Option<u32> {
+    let length = bytes.strip_prefix(b"glTF")?.get(4..8)?;
+    length.try_into().ok().map(u32::from_le_bytes)
+}
+
 /// Returns whether a file is glTF, by its name.
 pub(super) fn is_named(name: &Path) -> bool {
     let extension = name.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
@@ -49,6 +58,12 @@ fn has_known_animations(document: &gltf::Document) -> bool {
 /// Reads the turns of a camera, or of another node, from a file with times in seconds.
 pub(super) fn path(bytes: &[u8], source: &PathSource) -> Result<CameraPath, CameraPathError> {
     let name = source.name;
+    if let Some(length) = told_length(bytes).filter(|length| *length < HEADER) {
+        return Err(wrong(
+            name,
+            format!("no valid glTF (its header says that it has {length} bytes, fewer than its own)"),
+        ));
+    }
     let Gltf { document, blob } =
         Gltf::from_slice(bytes).map_err(|error| wrong(name, format!("no valid glTF ({error})")))?;
     if !has_known_animations(&document) {
