@@ -1,6 +1,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::strip::CELL;
 use super::{LightSum, Moment, Shutter};
 use crate::camera::{Covariance, Footprint, PixelPoint, View};
 use crate::filter::{CrossSection, Kernel, Prepared};
@@ -34,6 +35,9 @@ const LATTICE: usize = 17;
 impl Exposure {
     /// Kernel by which [`Exposure::ellipse`] averages: a Gaussian of half a pixel's standard deviation.
     pub const KERNEL: Kernel = Kernel::uniform(CrossSection::Gaussian { alpha: 2.0, cutoff: 2.0 });
+
+    /// Greatest number of samples, for each pixel of a view, that [`Exposure::swept`] and [`Exposure::ellipses`] hold at once.
+    pub const MOST_SAMPLES: usize = 8;
 
     /// Number of moments by which the ways of pixels are measured, and from which an ellipse is made.
     pub const FEW: usize = 5;
@@ -114,13 +118,31 @@ impl Exposure {
         let (middle, _) = &self.views[self.views.len() / 2];
         let mut image = Image::filled(middle.width(), middle.height(), Rgba::TRANSPARENT);
         image.pixels_mut().par_chunks_mut(middle.width().max(1)).enumerate().for_each(|(j, row)| {
-            for (i, pixel) in row.iter_mut().enumerate() {
-                let Some(screen) = middle.screen_pixel(i, j) else { continue };
-                let footprint = self.widened(&screen.footprint, PixelPoint::centre(i, j));
-                *pixel = prepared.average(&footprint) * screen.coverage as f32;
-            }
+            row.iter_mut().enumerate().for_each(|(i, pixel)| *pixel = self.ellipse_at([i, j], prepared));
         });
         image
+    }
+
+    /// Averages the world for each pixel of the marked cells, of 8 × 8 pixels.
+    pub(super) fn fill_by_ellipses(&self, image: &mut Image<Rgba>, is_marked: &[bool], prepared: &dyn Prepared) {
+        let (width, across) = (image.width(), image.width().div_ceil(CELL));
+        image.pixels_mut().par_chunks_mut(width.max(1)).enumerate().for_each(|(j, row)| {
+            for (i, pixel) in row.iter_mut().enumerate().filter(|(i, _)| is_marked[j / CELL * across + i / CELL]) {
+                *pixel = self.ellipse_at([i, j], prepared);
+            }
+        });
+    }
+
+    /// Averages the world for one pixel.
+    fn ellipse_at(&self, [i, j]: [usize; 2], prepared: &dyn Prepared) -> Rgba {
+        let (middle, _) = &self.views[self.views.len() / 2];
+        let Some(screen) = middle.screen_pixel(i, j) else { return Rgba::TRANSPARENT };
+        prepared.average(&self.widened(&screen.footprint, PixelPoint::centre(i, j))) * screen.coverage as f32
+    }
+
+    /// Returns the variance of the shutter's time over that of the moments.
+    pub(super) fn spread(&self) -> f64 {
+        self.spread
     }
 
     /// Returns the footprint of a pixel over its way: about the mean direction, with the covariance of directions.

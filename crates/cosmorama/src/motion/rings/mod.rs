@@ -14,6 +14,7 @@ use fearless_simd::{Level, dispatch};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
+use super::Exposure;
 use super::turning::{Turning, lattice};
 use crate::camera::{FieldStop, PixelGrid, PixelPoint, View};
 use crate::filter::{CrossSection, FilterKind, FilterSettings};
@@ -27,10 +28,44 @@ use taps::{BEFORE, REACH, Taps, blur, four, six};
 
 /// Samples along a ring, and across rings, for the length of the kernel's unit. Between rings light is interpolated; along them
 /// it is summed, which asks for less.
-const DENSITY: [f64; 2] = [1.6, 2.0];
+const DENSITY: [f64; 2] = [1.25, 1.75];
 
-/// Greatest size of the panorama, in pixels of the view.
-const LARGEST: usize = 12;
+/// Part of the view's points for which this density is enough; elsewhere pixels are finer.
+const MOST: f64 = 0.75;
+
+/// Light of a shutter by the angle of the turn.
+#[derive(Clone, Debug)]
+pub(super) enum Profile {
+    /// At some angles, each with a weight.
+    Moments(Vec<(f64, f64)>),
+    /// A Gaussian of this mean and standard deviation.
+    Gaussian { mean: f64, deviation: f64 },
+}
+
+/// Standard deviations after which a Gaussian ends.
+const TAIL: f64 = 4.0;
+
+impl Profile {
+    /// Returns the taps for rows of so many samples per radian.
+    fn taps(&self, density: f64) -> Taps {
+        // What is seen under a positive angle about the axis lies to the left.
+        match self {
+            Self::Moments(moments) => {
+                let offsets: Vec<_> = moments.iter().map(|(angle, weight)| (-angle * density, *weight)).collect();
+                Taps::at(&offsets)
+            }
+            Self::Gaussian { mean, deviation } => {
+                // Half a sample, or less than the Gaussian itself, from one to the next.
+                let count = (TAIL * (2.0 * deviation * density).max(4.0)).ceil();
+                let offset = |k: i64| {
+                    let x = TAIL * k as f64 / count;
+                    (-(mean + x * deviation) * density, (-0.5 * x * x).exp())
+                };
+                Taps::at(&(-count as i64..=count as i64).map(offset).collect::<Vec<_>>())
+            }
+        }
+    }
+}
 
 /// Light along the rings of a turning view.
 pub(super) struct Rings<'a> {
@@ -55,12 +90,12 @@ pub(super) struct Swept {
 }
 
 impl<'a> Rings<'a> {
-    /// Prepares the rings of some views, which turn as `turning` says; `profile` is the light by the angle. `None` where the
-    /// filter is none that can be sampled, or where there would be too many samples.
+    /// Prepares the rings of some views, which turn as `turning` says. `None` where the filter is none that can be sampled, or
+    /// where there would be too many samples.
     pub(super) fn new(
         views: &'a [(View, f32)],
         turning: &Turning,
-        profile: &[(f64, f64)],
+        profile: &Profile,
         resampler: (&'a World, FilterSettings),
     ) -> Option<Self> {
         let lens = &views[turning.middle].0;
@@ -68,10 +103,7 @@ impl<'a> Rings<'a> {
             return None;
         }
         let frame = frame(lens, turning.axis, resampler)?;
-        // Light that turns by an angle about the axis goes to the left.
-        let offsets: Vec<(f64, f64)> =
-            profile.iter().map(|(angle, weight)| (-angle * frame.density[0], *weight)).collect();
-        let taps = Taps::at(&offsets);
+        let taps = profile.taps(frame.density[0]);
         let cells = Cells::of(lens, &frame);
         let [least, most] = cells.bounds()?;
         let period = (TAU * frame.density[0]).round() as i64;
@@ -84,7 +116,7 @@ impl<'a> Rings<'a> {
         let (top, bottom) =
             ((least[1].floor() as i64 - BEFORE).max(-pole), (most[1].floor() as i64 + after).min(pole + 1));
         let (width, height) = ((right - left) as usize, (bottom - top).max(1) as usize);
-        if width.checked_mul(height)? > LARGEST * lens.width() * lens.height() {
+        if width.checked_mul(height)? > Exposure::MOST_SAMPLES * lens.width() * lens.height() {
             return None;
         }
         let origin = PixelPoint::new(0.5 - left as f64, 0.5 - top as f64);
@@ -172,7 +204,7 @@ impl<'a> Rings<'a> {
     /// Interpolates each pixel between the blurred rings.
     fn look_up(&self, panorama: &Image<Rgba>, tolerance: f32) -> Swept {
         let (width, height, level) = (self.lens.width(), self.lens.height(), Level::new());
-        let mut image = Image::filled(width, height, Rgba::TRANSPARENT);
+        let mut image = Image::zeroed(width, height);
         let mut is_left = vec![false; self.cells.cells.len()];
         let across = self.cells.across;
         let bands = image.pixels_mut().par_chunks_mut(width * SIDE).zip(is_left.par_chunks_mut(across)).enumerate();
@@ -180,7 +212,7 @@ impl<'a> Rings<'a> {
             let cells = &self.cells.cells[band * across..][..across];
             dispatch!(level, _simd => self.look_up_band(panorama, tolerance, cells, (pixels, is_left)));
         });
-        Swept { image, is_left }
+        Swept { image, is_left: with_neighbours(&is_left, across) }
     }
 
     #[inline(always)]
@@ -220,14 +252,15 @@ impl<'a> Rings<'a> {
         if !is_inside && !self.is_whole_turn {
             return None;
         }
-        let along = six(place[0] - floor[0]).map(|weight| weight as f32);
+        // Rows are blurred: along them four samples are enough.
+        let along = four(place[0] - floor[0]).map(|weight| weight as f32);
         let mut rings = [[0.0f32; 4]; REACH];
         for (k, ring) in rings.iter_mut().enumerate() {
             let row = panorama.row(y as usize + k);
-            let samples: [Rgba; REACH] = if is_inside {
-                *row[x as usize..].first_chunk()?
+            let samples: [Rgba; 4] = if is_inside {
+                *row[x as usize + 1..].first_chunk()?
             } else {
-                std::array::from_fn(|at| row[(x + at as i64).rem_euclid(width as i64) as usize])
+                std::array::from_fn(|at| row[(x + 1 + at as i64).rem_euclid(width as i64) as usize])
             };
             for (weight, sample) in along.iter().zip(&samples) {
                 ring.iter_mut().zip(sample.0).for_each(|(sum, light)| *sum += weight * light);
@@ -248,6 +281,18 @@ impl<'a> Rings<'a> {
     }
 }
 
+/// Marks the cells around those that are marked, too: where a streak is too bright for interpolation, so are its ends.
+fn with_neighbours(is_marked: &[bool], across: usize) -> Vec<bool> {
+    let down = is_marked.len() / across.max(1);
+    let around = |at: usize, of: usize| at.saturating_sub(1)..(at + 2).min(of);
+    let is_near = |at: usize| {
+        let mut cells =
+            around(at / across, down).flat_map(|j| around(at % across, across).map(move |i| j * across + i));
+        cells.any(|cell| is_marked[cell])
+    };
+    (0..is_marked.len()).map(is_near).collect()
+}
+
 /// Returns whether a filter's pixels change smoothly from place to place, so that they can be interpolated.
 fn is_sampled(filter: &FilterSettings) -> bool {
     let is_smooth = |section: CrossSection| !matches!(section, CrossSection::Box | CrossSection::Tent);
@@ -261,12 +306,19 @@ fn frame(lens: &View, axis: DVec3, resampler: (&World, FilterSettings)) -> Optio
     let front = (towards - axis * axis.dot(towards)).try_normalize().unwrap_or_else(|| axis.any_orthonormal_vector());
     let [right, up, front] = [front.cross(axis), axis, front].map(Direction::from_unit);
     let orientation = Orientation::from_axes(right, up, front);
-    let needed = lattice(lens).filter_map(|point| density(lens, point, axis, resampler));
-    let [along, across] = needed.fold([0.0f64; 2], |most, needed| [most[0].max(needed[0]), most[1].max(needed[1])]);
+    let needed: Vec<[f64; 2]> = lattice(lens).filter_map(|point| density(lens, point, axis, resampler)).collect();
+    let [along, across] = [0, 1].map(|way| usual(needed.iter().map(|needed| needed[way])));
     let is_possible = along.is_finite() && across.is_finite() && across > 0.0;
     // A whole number of columns all the way round.
     let along = (TAU * along).ceil().max(1.0) / TAU;
     is_possible.then_some(Frame { orientation, density: [along, across] })
+}
+
+/// Returns the density that is enough for most points. Where more is needed, interpolation tells that it is not certain.
+fn usual(needed: impl Iterator<Item = f64>) -> f64 {
+    let mut needed: Vec<f64> = needed.collect();
+    needed.sort_by(f64::total_cmp);
+    needed.get((needed.len().saturating_sub(1) as f64 * MOST) as usize).copied().unwrap_or(0.0)
 }
 
 /// Returns how many samples per radian of longitude and of latitude a point of the view needs.

@@ -60,7 +60,7 @@ impl Taps {
 }
 
 /// Samples that are blurred together.
-const BLOCK: usize = 8;
+const BLOCK: usize = 16;
 
 /// Blurs a row: each sample of `into` is the sum of as many of `from` as there are weights, from its own place on.
 #[inline(always)]

@@ -312,7 +312,7 @@ impl<F: Format> Compiled<F> {
     }
 }
 
-/// Records each band, makes its pixels and drops it.
+/// Records each band, makes its pixels and drops it. All pixels are zeros before.
 fn each_band<F: Format, P: NoUninit + Send + Sync, M: Maker<F, P>>(
     (resampler, sampling): (&Resampler, Sampling),
     mirrors: &Mirrors,
@@ -321,7 +321,10 @@ fn each_band<F: Format, P: NoUninit + Send + Sync, M: Maker<F, P>>(
     maker: &M,
 ) {
     let table = &KernelTable::new(&resampler.filter.kernel);
+    let is_blank = bytemuck::bytes_of(&background).iter().all(|byte| *byte == 0);
     let canvases = Canvas::bands(pixels, resampler.target.width(), BAND, mirrors, background);
+    let canvases: Vec<_> =
+        canvases.into_iter().map(|canvas| if is_blank { canvas.on_blank() } else { canvas }).collect();
     let parts = watch.parts(canvases.len());
     let memory = <(Band<F>, M::Memory)>::default;
     canvases.into_par_iter().enumerate().for_each_init(memory, |(band, memory), (index, mut canvas)| {
