@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use super::strip::CELL;
 use super::{LightSum, Moment, Shutter};
 use crate::camera::{Covariance, Footprint, PixelPoint, View};
-use crate::filter::{CrossSection, Kernel, Prepared};
+use crate::filter::{CrossSection, Ewa, Kernel, Prepared};
 use crate::raster::{Image, Rgba};
 use crate::sphere::Direction;
 
@@ -35,6 +35,9 @@ const LATTICE: usize = 17;
 impl Exposure {
     /// Kernel by which [`Exposure::ellipse`] averages: a Gaussian of half a pixel's standard deviation.
     pub const KERNEL: Kernel = Kernel::uniform(CrossSection::Gaussian { alpha: 2.0, cutoff: 2.0 });
+
+    /// Filter by which [`Exposure::ellipse`] averages.
+    pub const FILTER: Ewa = Ewa { kernel: Self::KERNEL, anti_ringing: false };
 
     /// Greatest number of samples, for each pixel of a view, that [`Exposure::swept`] and [`Exposure::ellipses`] hold at once.
     pub const MOST_SAMPLES: usize = 8;
@@ -189,7 +192,7 @@ fn way(views: &[View], point: PixelPoint, texel: f64) -> Option<f64> {
 mod tests {
     use super::*;
     use crate::camera::{CameraModel, FieldOfView, PerspectiveCamera};
-    use crate::filter::{Ewa, Filter};
+    use crate::filter::Filter;
     use crate::motion::{Ramp, ShutterCurve, Turn};
     use crate::render::Resampler;
     use crate::sphere::Angle;
@@ -264,8 +267,7 @@ mod tests {
         let (world, light) = World::from_panorama(Image::from_fn(512, 256, texel)).expect("a world");
         let shutter = Shutter { phase: 0.0, ..Shutter::centred(0.6) };
         let swept = swept(&exposure(&shutter, world.texel_pitch()), &world, &light);
-        let filter = Ewa { kernel: Exposure::KERNEL, anti_ringing: false };
-        let prepared = filter.prepare(&world, &light).expect("a filter");
+        let prepared = Exposure::FILTER.prepare(&world, &light).expect("a filter");
         let view = |time: f64| camera().turned(turn().pose(time).orientation);
         let ellipse = Exposure::few(view, &shutter, 0.5).ellipse(&*prepared);
         for (a, b) in swept.pixels().iter().zip(ellipse.pixels()) {

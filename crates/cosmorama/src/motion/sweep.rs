@@ -69,11 +69,11 @@ impl Exposure {
     /// # Panics
     /// As [`Resampler::render`].
     pub fn ellipses(&self, world: &World, texels: &[Rgba], progress: &dyn Progress) -> Result<Image<Rgba>, Stopped> {
-        let filter = Ewa { kernel: Self::KERNEL, anti_ringing: false };
-        let prepared = filter.of_texels(world, texels);
+        let prepared = Self::FILTER.of_texels(world, texels);
         let rings = Turning::of(self.views(), ABOUT).and_then(|turning| {
             let profile = self.gaussian(&turning.angles);
-            let filter = FilterSettings { kind: FilterKind::Ewa, kernel: Self::KERNEL, anti_ringing: false };
+            let Ewa { kernel, anti_ringing } = Self::FILTER;
+            let filter = FilterSettings { kind: FilterKind::Ewa, kernel, anti_ringing };
             Rings::new(self.views(), &turning, &profile, (world, filter))
         });
         let Some(rings) = rings else {
@@ -347,8 +347,8 @@ mod tests {
         let view = |time: f64| camera().turned(turn([4.0, 1.0, 5.0]).pose(time).orientation);
         let few = exposure(view, ShutterCurve::Box, Exposure::FEW);
         let found = few.ellipses(&world, light.texels(), &on).expect("a picture");
-        let filter = Ewa { kernel: Exposure::KERNEL, anti_ringing: false };
-        let (worst, _) = worst(&found, &few.ellipse(&*filter.of_texels(&world, light.texels())));
+        let single = few.ellipse(&*Exposure::FILTER.of_texels(&world, light.texels()));
+        let (worst, _) = worst(&found, &single);
         assert!(worst < 0.02, "{worst}");
     }
 }

@@ -174,8 +174,12 @@ impl Engine<'_> {
         let (posed, target) = (&layer.posed, &layer.posed.views[index]);
         let own = Share { whole: progress, from: 0.0, to: if layer.behind.is_some() { 0.5 } else { 1.0 } };
         let (world, texels) = self.world_of(target, light)?;
-        let made = self.exposure(index, exposed)?.ellipses(world, texels, &own);
-        let mut image = made.map_err(|Stopped| self.stopped())?;
+        let exposure = self.exposure(index, exposed)?;
+        let mut image = if self.job.has_room_for_rings {
+            exposure.ellipses(world, texels, &own).map_err(|Stopped| self.stopped())?
+        } else {
+            exposure.ellipse(&*Exposure::FILTER.of_texels(world, texels))
+        };
         self.close_holes((posed, index), (frame, light), &mut image)?;
         self.fill_unseen((posed, index), light, &mut image)?;
         self.thin(&mut image);
