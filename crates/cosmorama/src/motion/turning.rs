@@ -14,7 +14,7 @@ pub(super) struct Turning {
     pub(super) angles: Vec<f64>,
 }
 
-/// How far views may differ from a turn about one axis.
+/// Differences from a turn about one axis that are allowed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tolerance {
     /// Distance of a pixel from its way about the axis, in pixels.

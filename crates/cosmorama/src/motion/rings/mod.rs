@@ -16,9 +16,8 @@ use rayon::prelude::*;
 
 use super::Exposure;
 use super::turning::{Turning, lattice};
-use crate::camera::{FieldStop, PixelGrid, PixelPoint, View};
+use crate::camera::{CameraModel, EquirectCamera, PixelGrid, PixelPoint, View};
 use crate::filter::{CrossSection, FilterKind, FilterSettings};
-use crate::projection::ProjectionKind;
 use crate::raster::{Image, Rgba};
 use crate::render::{Progress, Resampler, Sampling, Stopped, Wanted};
 use crate::sphere::{Direction, Orientation};
@@ -122,10 +121,9 @@ impl<'a> Rings<'a> {
         let origin = PixelPoint::new(0.5 - left as f64, 0.5 - top as f64);
         let step = DVec2::new(frame.density[0].recip(), frame.density[1].recip());
         let view = View {
-            projection: ProjectionKind::EQUIRECTANGULAR,
             orientation: frame.orientation,
             grid: PixelGrid::centred(width, height, origin, step),
-            stop: FieldStop::NONE,
+            ..CameraModel::from(EquirectCamera::default()).view(width, height).ok()?
         };
         let mut rings = Self {
             lens,

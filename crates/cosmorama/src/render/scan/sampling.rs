@@ -1,7 +1,7 @@
 use crate::camera::{Footprint, View};
 use crate::render::scan::wanted::Wanted;
 
-/// What a scan takes otherwise than the whole of a target with its own pixels.
+/// Choice of what a scan visits, if not the whole of a target with its own pixels.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Sampling<'a> {
     /// Patches to compute, if not all.
