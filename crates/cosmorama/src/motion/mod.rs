@@ -25,13 +25,9 @@
 
 mod exposure;
 mod light_sum;
-mod rings;
 mod shutter;
-mod strip;
-mod sweep;
 mod track;
 mod turn;
-mod turning;
 
 pub use exposure::Exposure;
 pub use light_sum::LightSum;
