@@ -18,6 +18,7 @@ impl Profile for Equirectangular {
             (Latitude { sin, cos }, 1.0)
         })
     }
+
     fn second_derivative(&self, _: f64) -> Option<f64> {
         Some(0.0)
     }
