@@ -173,6 +173,7 @@ impl FoundBackdrop {
             target: front.target.clone(),
             movement,
             is_blurred: false,
+            has_room_for_rings: false,
             filter: front.filter,
             light,
             layers: LayerPlan::default(),

@@ -44,6 +44,8 @@ pub(crate) struct ConvertJob {
     pub(crate) movement: Option<Movement>,
     /// Whether a shutter blurs some frame, so that light is summed.
     pub(crate) is_blurred: bool,
+    /// Whether the memory holds what renders the moments of a frame together.
+    pub(crate) has_room_for_rings: bool,
     /// Filter.
     pub(crate) filter: FilterSettings,
     /// Transfer functions of both sides, and the outputs' channels and depth.
@@ -235,6 +237,7 @@ impl ConvertJob {
             target,
             movement,
             is_blurred: false,
+            has_room_for_rings: false,
             filter,
             light,
             layers,
@@ -481,10 +484,21 @@ impl ConvertJob {
                 let sum = self.frame_needs().pictures();
                 self.prepared = self.prepared.saturating_add(sum);
                 self.memory.check_sum(self.frame_needs(), sum)?;
+                self.keep_room_for_rings();
                 break;
             }
         }
         Ok(())
+    }
+
+    /// Keeps memory for a frame whose moments are rendered together, view by view, if there is enough.
+    fn keep_room_for_rings(&mut self) {
+        let pixels = self.target.views.iter().map(|target| target.view.width() * target.view.height()).max();
+        let needed = (pixels.unwrap_or(0) * Exposure::MOST_SAMPLES * size_of::<Rgba>()) as u64;
+        self.has_room_for_rings = self.memory.beside_frame(self.frame_needs()).bytes >= needed;
+        if self.has_room_for_rings {
+            self.prepared = self.prepared.saturating_add(needed);
+        }
     }
 
     /// Returns the moments of a frame's exposure; `None` where nothing moves, or nothing is blurred.

@@ -1,9 +1,10 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::strip::CELL;
 use super::{LightSum, Moment, Shutter};
 use crate::camera::{Covariance, Footprint, PixelPoint, View};
-use crate::filter::{CrossSection, Kernel, Prepared};
+use crate::filter::{CrossSection, Ewa, Kernel, Prepared};
 use crate::raster::{Image, Rgba};
 use crate::sphere::Direction;
 
@@ -34,6 +35,12 @@ const LATTICE: usize = 17;
 impl Exposure {
     /// Kernel by which [`Exposure::ellipse`] averages: a Gaussian of half a pixel's standard deviation.
     pub const KERNEL: Kernel = Kernel::uniform(CrossSection::Gaussian { alpha: 2.0, cutoff: 2.0 });
+
+    /// Filter by which [`Exposure::ellipse`] averages.
+    pub const FILTER: Ewa = Ewa { kernel: Self::KERNEL, anti_ringing: false };
+
+    /// Greatest number of samples, for each pixel of a view, that [`Exposure::swept`] and [`Exposure::ellipses`] hold at once.
+    pub const MOST_SAMPLES: usize = 8;
 
     /// Number of moments by which the ways of pixels are measured, and from which an ellipse is made.
     pub const FEW: usize = 5;
@@ -114,13 +121,31 @@ impl Exposure {
         let (middle, _) = &self.views[self.views.len() / 2];
         let mut image = Image::filled(middle.width(), middle.height(), Rgba::TRANSPARENT);
         image.pixels_mut().par_chunks_mut(middle.width().max(1)).enumerate().for_each(|(j, row)| {
-            for (i, pixel) in row.iter_mut().enumerate() {
-                let Some(screen) = middle.screen_pixel(i, j) else { continue };
-                let footprint = self.widened(&screen.footprint, PixelPoint::centre(i, j));
-                *pixel = prepared.average(&footprint) * screen.coverage as f32;
-            }
+            row.iter_mut().enumerate().for_each(|(i, pixel)| *pixel = self.ellipse_at([i, j], prepared));
         });
         image
+    }
+
+    /// Averages the world for each pixel of the marked cells, of 8 × 8 pixels.
+    pub(super) fn fill_by_ellipses(&self, image: &mut Image<Rgba>, is_marked: &[bool], prepared: &dyn Prepared) {
+        let (width, across) = (image.width(), image.width().div_ceil(CELL));
+        image.pixels_mut().par_chunks_mut(width.max(1)).enumerate().for_each(|(j, row)| {
+            for (i, pixel) in row.iter_mut().enumerate().filter(|(i, _)| is_marked[j / CELL * across + i / CELL]) {
+                *pixel = self.ellipse_at([i, j], prepared);
+            }
+        });
+    }
+
+    /// Averages the world for one pixel.
+    fn ellipse_at(&self, [i, j]: [usize; 2], prepared: &dyn Prepared) -> Rgba {
+        let (middle, _) = &self.views[self.views.len() / 2];
+        let Some(screen) = middle.screen_pixel(i, j) else { return Rgba::TRANSPARENT };
+        prepared.average(&self.widened(&screen.footprint, PixelPoint::centre(i, j))) * screen.coverage as f32
+    }
+
+    /// Returns the variance of the shutter's time over that of the moments.
+    pub(super) fn spread(&self) -> f64 {
+        self.spread
     }
 
     /// Returns the footprint of a pixel over its way: about the mean direction, with the covariance of directions.
@@ -167,7 +192,7 @@ fn way(views: &[View], point: PixelPoint, texel: f64) -> Option<f64> {
 mod tests {
     use super::*;
     use crate::camera::{CameraModel, FieldOfView, PerspectiveCamera};
-    use crate::filter::{Ewa, Filter};
+    use crate::filter::Filter;
     use crate::motion::{Ramp, ShutterCurve, Turn};
     use crate::render::Resampler;
     use crate::sphere::Angle;
@@ -242,8 +267,7 @@ mod tests {
         let (world, light) = World::from_panorama(Image::from_fn(512, 256, texel)).expect("a world");
         let shutter = Shutter { phase: 0.0, ..Shutter::centred(0.6) };
         let swept = swept(&exposure(&shutter, world.texel_pitch()), &world, &light);
-        let filter = Ewa { kernel: Exposure::KERNEL, anti_ringing: false };
-        let prepared = filter.prepare(&world, &light).expect("a filter");
+        let prepared = Exposure::FILTER.prepare(&world, &light).expect("a filter");
         let view = |time: f64| camera().turned(turn().pose(time).orientation);
         let ellipse = Exposure::few(view, &shutter, 0.5).ellipse(&*prepared);
         for (a, b) in swept.pixels().iter().zip(ellipse.pixels()) {

@@ -25,9 +25,13 @@
 
 mod exposure;
 mod light_sum;
+mod rings;
 mod shutter;
+mod strip;
+mod sweep;
 mod track;
 mod turn;
+mod turning;
 
 pub use exposure::Exposure;
 pub use light_sum::LightSum;

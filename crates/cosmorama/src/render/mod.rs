@@ -24,6 +24,7 @@ mod watched;
 mod whole_picture;
 
 pub use picture::picture;
+pub(crate) use plan::wanted;
 pub use plan::{Arithmetic, Plan};
 pub use progress::{Progress, Share, Stopped};
 pub(crate) use pyramid::{Pyramid, TexelCount};
@@ -33,4 +34,6 @@ pub use required::require::MissingLight;
 pub use required::screen_mask::ScreenMask;
 pub use required::uncovered::Uncovered;
 pub use resampler::Resampler;
+pub(crate) use scan::sampling::Sampling;
+pub(crate) use scan::wanted::Wanted;
 pub use watched::Watched;

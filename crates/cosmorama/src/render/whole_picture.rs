@@ -7,7 +7,8 @@ use super::apply::float::{FloatArithmetic, Uncoded};
 use super::batch::window::Level;
 use super::picture::two_pass;
 use super::plan::{self, Arithmetic, Plan};
-use super::progress::Watch;
+use super::progress::{Progress, Stopped, Watch};
+use super::scan::sampling::Sampling;
 use super::{Resampler, picture, pyramid};
 use crate::filter::lookup::labels::PreparedLabels;
 use crate::filter::{Classic, ClassicTables, Filter, FilterKind, Labels, reference};
@@ -55,7 +56,7 @@ impl Resampler<'_> {
         let mut image = match self.filter.kind {
             FilterKind::Ewa | FilterKind::Point | FilterKind::Bilinear => {
                 return plan::render(
-                    (self, None),
+                    (self, Sampling::default()),
                     FloatArithmetic { texels, background, pixels: Uncoded },
                     Level::new(),
                     watch,
@@ -84,6 +85,17 @@ impl Resampler<'_> {
         image
     }
 
+    /// Renders light, of some patches or through a lens, by an elliptical filter. Other pixels are transparent.
+    pub(crate) fn render_sampled(
+        &self,
+        sampling: Sampling,
+        texels: &[Rgba],
+        progress: &dyn Progress,
+    ) -> Result<Image<Rgba>, Stopped> {
+        let arithmetic = FloatArithmetic { texels, background: Rgba::TRANSPARENT, pixels: Uncoded };
+        Watch::over(progress, |watch| plan::render((self, sampling), arithmetic, Level::new(), watch))
+    }
+
     /// Renders one opaque frame of 8 bits from light of 15 bits. The code values of each pixel differ by at most one
     /// from those of [`Resampler::render`].
     ///
@@ -100,7 +112,7 @@ impl Resampler<'_> {
             let texels: Vec<Rgba> = (0..light.len()).map(|texel| light.rgba(texel)).collect();
             return codec.encode(&self.light((&texels, None), Rgba::TRANSPARENT, watch));
         }
-        plan::render((self, None), FixedArithmetic { light, codec }, Level::new(), watch)
+        plan::render((self, Sampling::default()), FixedArithmetic { light, codec }, Level::new(), watch)
     }
 
     /// Compiles the geometry for any number of frames. Returns `None` for `reference`, and for `ewa-pyramid` in

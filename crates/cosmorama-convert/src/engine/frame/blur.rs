@@ -3,17 +3,18 @@
 use std::path::PathBuf;
 
 use cosmorama::camera::View;
-use cosmorama::filter::Ewa;
+use cosmorama::filter::FilterKind;
 use cosmorama::motion::{Exposure, LightSum, Moment};
 use cosmorama::raster::{Image, Rgba};
-use cosmorama::render::{Progress, Share};
+use cosmorama::render::{Progress, Share, Stopped};
+use cosmorama::world::World;
 
 use super::pictures::{Layer, Making};
 use crate::diagnostic::{Result, bail};
 use crate::engine::{Engine, FrameLight, Levels, Shares, Texels};
 use crate::job::FrameOutputs;
 use crate::settings::{BlurMethod, MotionBlur};
-use crate::target::time;
+use crate::target::{TargetView, time};
 
 impl Engine<'_> {
     /// Returns the moments of a frame's exposure; `None` where nothing is blurred.
@@ -39,9 +40,11 @@ impl Engine<'_> {
         };
         let passes = job.layers.groups.len();
         let share = Share { whole: progress, from: 0.0, to: 1.0 / (1 + passes) as f64 };
+        let exposed = Exposed { moments, blur, time: time(frame.frame.unwrap_or_default()) };
         let pictures = match blur.method {
+            BlurMethod::Swept if self.is_swept_at_once(light) => self.swept_at_once(frame, light, &exposed, &share)?,
             BlurMethod::Swept => self.swept(frame, (light, moments), &share)?,
-            BlurMethod::Ellipse => self.ellipse(frame, (light, moments), blur, &share)?,
+            BlurMethod::Ellipse => self.ellipse(frame, light, &exposed, &share)?,
         };
         if job.layers.is_plain() {
             return Ok(pictures);
@@ -62,6 +65,34 @@ impl Engine<'_> {
     fn views_of(&self, frame: &FrameOutputs) -> Vec<&View> {
         let sheets = frame.files.iter().flat_map(|(file, _)| self.job.target.files[*file].levels());
         sheets.flat_map(|sheet| &sheet.pieces).map(|(index, _)| &self.job.target.views[*index].view).collect()
+    }
+
+    /// Returns whether the moments of a frame may be rendered together: nothing is done with their pictures but to sum them.
+    fn is_swept_at_once(&self, light: &FrameLight) -> bool {
+        let job = self.job;
+        let is_sampled = job.filter.kind == FilterKind::Ewa && job.formula.is_none() && !job.is_balance_asked_for();
+        job.has_room_for_rings && is_sampled && self.is_solid() && self.is_complete(light)
+    }
+
+    /// Renders each view through the open shutter.
+    fn swept_at_once(
+        &self,
+        frame: &FrameOutputs,
+        light: &FrameLight,
+        exposed: &Exposed,
+        progress: &dyn Progress,
+    ) -> Result<Vec<Levels>> {
+        let layer = self.layer(frame, progress)?;
+        let mut shares = self.shares(progress, frame, 1);
+        self.pictures_of(frame, |index| {
+            let share = shares.next(&layer.posed.views[index].view);
+            let (world, texels) = self.world_of(&layer.posed.views[index], light)?;
+            let exposure = self.exposure(index, exposed)?;
+            let made = exposure.swept((world, self.job.filter), texels, &share);
+            let mut image = made.map_err(|Stopped| self.stopped())?;
+            self.lay_background((&layer.posed, index), &mut image);
+            Ok(image)
+        })
     }
 
     /// Sums the pictures of all moments, each weighed by its part of the light: every pixel goes its own way.
@@ -103,19 +134,26 @@ impl Engine<'_> {
     fn ellipse(
         &self,
         frame: &FrameOutputs,
-        (light, moments): (&FrameLight, &[Moment]),
-        blur: MotionBlur,
+        light: &FrameLight,
+        exposed: &Exposed,
         progress: &dyn Progress,
     ) -> Result<Vec<Levels>> {
         let layer = self.layer(frame, progress)?;
         let mut shares = self.shares(progress, frame, 1);
-        let exposed = Exposed { moments, blur, time: time(frame.frame.unwrap_or_default()) };
-        let mut view = |index: usize| {
+        self.pictures_of(frame, |index| {
             let share = shares.next(&layer.posed.views[index].view);
-            let mut image = self.widened(index, (frame.frame, light), &layer, &exposed)?;
+            let mut image = self.widened(index, (frame.frame, light), (&layer, exposed), &share)?;
             self.lay_background((&layer.posed, index), &mut image);
-            if share.advance(1.0).is_break() { Err(self.stopped()) } else { Ok(image) }
-        };
+            Ok(image)
+        })
+    }
+
+    /// Assembles the files of a frame from pictures of the target's views.
+    fn pictures_of(
+        &self,
+        frame: &FrameOutputs,
+        mut view: impl FnMut(usize) -> Result<Image<Rgba>>,
+    ) -> Result<Vec<Levels>> {
         let background = self.job.light.background;
         let file = |(file, _): &(usize, PathBuf)| {
             let sheets = self.job.target.files[*file].levels();
@@ -130,30 +168,44 @@ impl Engine<'_> {
         &self,
         index: usize,
         (frame, light): (Option<u64>, &FrameLight),
-        layer: &Layer,
-        exposed: &Exposed,
+        (layer, exposed): (&Layer, &Exposed),
+        progress: &dyn Progress,
     ) -> Result<Image<Rgba>> {
-        let (posed, job) = (&layer.posed, self.job);
-        let seen = |moment: &Moment| {
-            let pose = job.movement.as_ref().map(|movement| movement.pose(moment.time));
-            Ok((*moment, job.views_in(pose.as_ref())?[index].view.clone()))
+        let (posed, target) = (&layer.posed, &layer.posed.views[index]);
+        let own = Share { whole: progress, from: 0.0, to: if layer.behind.is_some() { 0.5 } else { 1.0 } };
+        let (world, texels) = self.world_of(target, light)?;
+        let exposure = self.exposure(index, exposed)?;
+        let mut image = if self.job.has_room_for_rings {
+            exposure.ellipses(world, texels, &own).map_err(|Stopped| self.stopped())?
+        } else {
+            exposure.ellipse(&*Exposure::FILTER.of_texels(world, texels))
         };
-        let seen: Vec<(Moment, View)> = exposed.moments.iter().map(seen).collect::<Result<_>>()?;
-        let exposure = Exposure::of_moments(&seen, &exposed.blur.shutter, exposed.time);
-        let target = &posed.views[index];
-        let Texels::Float(worlds) = light.texels() else { bail!("light of 8 bits where floats were expected") };
-        let filter = Ewa { kernel: Exposure::KERNEL, anti_ringing: false };
-        let prepared = filter.of_texels(job.world(target), &worlds[target.world(worlds.len())]);
-        let mut image = exposure.ellipse(&*prepared);
         self.close_holes((posed, index), (frame, light), &mut image)?;
         self.fill_unseen((posed, index), light, &mut image)?;
         self.thin(&mut image);
         if let (Some(behind), Some(layer)) = (&self.behind, &layer.behind) {
             behind.lay_under((&target.view, &mut image), layer.place, |engine, light| {
-                engine.widened(index, light, layer, exposed)
+                engine.widened(index, light, (layer, exposed), &Share { from: own.to, to: 1.0, ..own })
             })?;
         }
         Ok(image)
+    }
+
+    /// Returns the exposure of a view of the target.
+    fn exposure(&self, index: usize, exposed: &Exposed) -> Result<Exposure> {
+        let job = self.job;
+        let seen = |moment: &Moment| {
+            let pose = job.movement.as_ref().map(|movement| movement.pose(moment.time));
+            Ok((*moment, job.views_in(pose.as_ref())?[index].view.clone()))
+        };
+        let seen: Vec<(Moment, View)> = exposed.moments.iter().map(seen).collect::<Result<_>>()?;
+        Ok(Exposure::of_moments(&seen, &exposed.blur.shutter, exposed.time))
+    }
+
+    /// Returns the world that a target shows, and its light.
+    fn world_of<'l>(&'l self, target: &TargetView, light: &'l FrameLight) -> Result<(&'l World, &'l [Rgba])> {
+        let Texels::Float(worlds) = light.texels() else { bail!("light of 8 bits where floats were expected") };
+        Ok((self.job.world(target), &worlds[target.world(worlds.len())]))
     }
 }
 

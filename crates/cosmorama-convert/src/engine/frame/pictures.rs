@@ -460,12 +460,12 @@ impl<'a> Engine<'a> {
     }
 
     /// Returns whether nothing is seen through the input.
-    fn is_solid(&self) -> bool {
+    pub(super) fn is_solid(&self) -> bool {
         self.behind.is_none() && self.job.opacity >= 1.0
     }
 
     /// Returns whether no texels are missing and every pixel has a view.
-    fn is_complete(&self, light: &FrameLight) -> bool {
+    pub(super) fn is_complete(&self, light: &FrameLight) -> bool {
         matches!(self.job.coverage, Coverage::Complete) && !self.has_holes(light)
     }
 

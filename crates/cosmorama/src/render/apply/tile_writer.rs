@@ -31,6 +31,8 @@ pub(crate) struct Canvas<'a, P: NoUninit> {
     part: PicturePart<'a, P>,
     /// Bits of the band's own pixels that are made, row by row, one for each column. They hold for all mirror images.
     made: Vec<u8>,
+    /// Whether all of the picture is background to begin with.
+    is_blank: bool,
 }
 
 /// Number of background pixels that are written at once. Three bytes at a time would be slow.
@@ -38,6 +40,9 @@ const MANY: usize = 8 * SIDE;
 
 impl<P: NoUninit> Drop for Canvas<'_, P> {
     fn drop(&mut self) {
+        if self.is_blank {
+            return;
+        }
         for top in (0..self.part.rows()).step_by(SIDE) {
             self.fill_patches(top);
         }
@@ -62,9 +67,15 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
     ) -> Vec<Self> {
         let canvas = |part: PicturePart<'a, P>| {
             let made = vec![0; part.rows() * bytes_of(mirrors.columns)];
-            Self { background: [background; MANY], mirrors, part, made }
+            Self { background: [background; MANY], mirrors, part, made, is_blank: false }
         };
         PicturePart::all(pixels, width, rows, mirrors).into_iter().map(canvas).collect()
+    }
+
+    /// Leaves pixels that are not made as they are. Memory of zeros that nobody touches costs nothing.
+    pub(crate) fn on_blank(mut self) -> Self {
+        self.is_blank = true;
+        self
     }
 
     /// Marks pixels of a row as made: of the eight from this column on, those whose bits are set.

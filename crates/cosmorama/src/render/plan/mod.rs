@@ -33,6 +33,7 @@ use super::Resampler;
 use super::batch::window::Level;
 use super::progress::Watch;
 use super::pyramid::PyramidPlan;
+use super::scan::sampling::Sampling;
 use super::scan::tile::SIDE;
 use super::scan::wanted::Wanted;
 use super::scan::{Area, Scan};
@@ -97,15 +98,19 @@ impl Plan {
         }
         let geometry = match (arithmetic, resampler.filter.kind) {
             (Arithmetic::Float, FilterKind::EwaPyramid) => Geometry::Pyramid(PyramidPlan::new(resampler, watch)),
-            (Arithmetic::Float, _) => Geometry::Float(Compiled::new((resampler, None), Level::new(), watch)),
-            (Arithmetic::Fixed, _) => Geometry::Fixed(Compiled::new((resampler, None), Level::new(), watch)),
+            (Arithmetic::Float, _) => {
+                Geometry::Float(Compiled::new((resampler, Sampling::default()), Level::new(), watch))
+            }
+            (Arithmetic::Fixed, _) => {
+                Geometry::Fixed(Compiled::new((resampler, Sampling::default()), Level::new(), watch))
+            }
         };
         Some(Self(geometry))
     }
 
     /// Compiles the wanted patches alone, in floats; other pixels become transparent.
     pub(crate) fn of_part(resampler: &Resampler, wanted: &Wanted, watch: Watch) -> Self {
-        Self(Geometry::Float(Compiled::new((resampler, Some(wanted)), Level::new(), watch)))
+        Self(Geometry::Float(Compiled::new((resampler, Sampling::only(wanted)), Level::new(), watch)))
     }
 
     /// Makes one frame from `texels`, the world's buffer of light.
@@ -207,36 +212,40 @@ pub(crate) fn bytes_estimate(resampler: &Resampler, arithmetic: Arithmetic) -> u
     }
     match (arithmetic, resampler.filter.kind) {
         (Arithmetic::Float, FilterKind::EwaPyramid) => PyramidPlan::bytes_estimate(resampler),
-        (Arithmetic::Float, _) => part_bytes_estimate::<FloatFormat>(resampler, None),
-        (Arithmetic::Fixed, _) => part_bytes_estimate::<FixedFormat>(resampler, None),
+        (Arithmetic::Float, _) => part_bytes_estimate::<FloatFormat>(resampler, Sampling::default()),
+        (Arithmetic::Fixed, _) => part_bytes_estimate::<FixedFormat>(resampler, Sampling::default()),
     }
 }
 
 /// Estimates the bytes that the plan of wanted patches would hold.
 pub(crate) fn float_bytes_estimate(resampler: &Resampler, wanted: &Wanted) -> usize {
-    part_bytes_estimate::<FloatFormat>(resampler, Some(wanted))
+    part_bytes_estimate::<FloatFormat>(resampler, Sampling::only(wanted))
 }
 
 /// Renders a frame without keeping a plan: each band's geometry is dropped when its pixels are made. If only some
 /// patches are wanted, the rest is background.
 pub(crate) fn render<A: WindowArithmetic>(
-    (resampler, wanted): (&Resampler, Option<&Wanted>),
+    (resampler, sampling): (&Resampler, Sampling),
     arithmetic: A,
     level: Level,
     watch: Watch,
 ) -> Image<A::Pixel> {
-    let mirrors = &Mirrors::of::<A::Format>(resampler);
+    let mirrors = match sampling.lens {
+        // What lies around a lens has no symmetry with it.
+        Some(_) => &Mirrors::none::<A::Format>(resampler),
+        None => &Mirrors::of::<A::Format>(resampler),
+    };
     let mut image = Image::zeroed(resampler.target.width(), resampler.target.height());
     let pixels = (image.pixels_mut(), arithmetic.background());
     let filter = BandFilter { level, mirrors, anti_ringing: resampler.filter.anti_ringing, arithmetic };
-    each_band((resampler, wanted), mirrors, pixels, (level, watch), &filter);
+    each_band((resampler, sampling), mirrors, pixels, (level, watch), &filter);
     image
 }
 
 /// Estimates the bytes that the plan of a conversion would hold, from a row of patches in each band, keeping none of
 /// them. A small picture is measured whole, in hundredths of a second: it has few bands, and a pole in one of them
 /// holds most of the bytes.
-fn part_bytes_estimate<F: Format>(resampler: &Resampler, wanted: Option<&Wanted>) -> usize {
+fn part_bytes_estimate<F: Format>(resampler: &Resampler, sampling: Sampling) -> usize {
     const SMALL: usize = 512 * 512;
     let mirrors = &Mirrors::of::<F>(resampler);
     let table = KernelTable::new(&resampler.filter.kernel);
@@ -247,7 +256,7 @@ fn part_bytes_estimate<F: Format>(resampler: &Resampler, wanted: Option<&Wanted>
         let top = band.start + index % (BAND / SIDE) * SIDE;
         let rows = if top < band.end && !is_small { top..band.end.min(top + SIDE) } else { band };
         let (mut kept, mut bytes, count) = (Band::<F>::default(), 0, rows.len());
-        record((resampler, wanted), mirrors, &table, rows, Level::new(), &mut kept, |band: &mut Band<F>| {
+        record((resampler, sampling), mirrors, &table, rows, Level::new(), &mut kept, |band: &mut Band<F>| {
             bytes += band.used_bytes();
             band.clear();
         });
@@ -259,13 +268,21 @@ fn part_bytes_estimate<F: Format>(resampler: &Resampler, wanted: Option<&Wanted>
 }
 
 impl<F: Format> Compiled<F> {
-    fn new((resampler, wanted): (&Resampler, Option<&Wanted>), level: Level, watch: Watch) -> Self {
+    fn new((resampler, sampling): (&Resampler, Sampling), level: Level, watch: Watch) -> Self {
         let Resampler { target, filter, .. } = resampler;
         let mirrors = Mirrors::of::<F>(resampler);
         let table = KernelTable::new(&filter.kernel);
         let compile = |index| {
             let mut band = Band::default();
-            record((resampler, wanted), &mirrors, &table, mirrors.band(index), level, &mut band, |_: &mut Band<F>| {});
+            record(
+                (resampler, sampling),
+                &mirrors,
+                &table,
+                mirrors.band(index),
+                level,
+                &mut band,
+                |_: &mut Band<F>| {},
+            );
             band.settle();
             band
         };
@@ -295,23 +312,26 @@ impl<F: Format> Compiled<F> {
     }
 }
 
-/// Records each band, makes its pixels and drops it.
+/// Records each band, makes its pixels and drops it. All pixels are zeros before.
 fn each_band<F: Format, P: NoUninit + Send + Sync, M: Maker<F, P>>(
-    (resampler, wanted): (&Resampler, Option<&Wanted>),
+    (resampler, sampling): (&Resampler, Sampling),
     mirrors: &Mirrors,
     (pixels, background): (&mut [P], P),
     (level, watch): (Level, Watch),
     maker: &M,
 ) {
     let table = &KernelTable::new(&resampler.filter.kernel);
+    let is_blank = bytemuck::bytes_of(&background).iter().all(|byte| *byte == 0);
     let canvases = Canvas::bands(pixels, resampler.target.width(), BAND, mirrors, background);
+    let canvases: Vec<_> =
+        canvases.into_iter().map(|canvas| if is_blank { canvas.on_blank() } else { canvas }).collect();
     let parts = watch.parts(canvases.len());
     let memory = <(Band<F>, M::Memory)>::default;
     canvases.into_par_iter().enumerate().for_each_init(memory, |(band, memory), (index, mut canvas)| {
         parts.part(|| {
             band.clear();
             let painter = Painter { maker, memory, canvas: &mut canvas };
-            record((resampler, wanted), mirrors, table, mirrors.band(index), level, band, painter);
+            record((resampler, sampling), mirrors, table, mirrors.band(index), level, band, painter);
             maker.fill(band, &mut canvas);
         });
     });
@@ -319,7 +339,7 @@ fn each_band<F: Format, P: NoUninit + Send + Sync, M: Maker<F, P>>(
 
 /// Records some rows.
 fn record<F: Format>(
-    (resampler, wanted): (&Resampler, Option<&Wanted>),
+    (resampler, sampling): (&Resampler, Sampling),
     mirrors: &Mirrors,
     table: &KernelTable,
     rows: Range<usize>,
@@ -330,7 +350,7 @@ fn record<F: Format>(
     let mut recorder =
         Recorder { world: resampler.world, mirrors, band, taps: Taps::default(), places: Vec::new(), outlet };
     let area = Area { columns: mirrors.columns, rows, skips_left_of_diagonal: mirrors.has_diagonals() };
-    Scan::new(resampler, table, level).only(wanted).pixels(&area, &mut recorder);
+    Scan::new((resampler, sampling), table, level).pixels(&area, &mut recorder);
 }
 
 /// Returns the patches that must be computed: those that show something wanted in any mirror image. `is_wanted` tests a

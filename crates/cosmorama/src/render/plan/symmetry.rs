@@ -176,6 +176,12 @@ impl MirrorImage {
 }
 
 impl Mirrors {
+    /// Returns the one picture of a conversion without mirror images.
+    pub(crate) fn none<F: Format>(Resampler { world, target, .. }: &Resampler) -> Self {
+        let layout = RowLayout::of(world.view_sizes(), F::pitch);
+        Self::new([target.width(), target.height()], vec![MirrorImage::itself(&layout)])
+    }
+
     /// Finds the symmetries of a conversion, in the layout of light that these weights apply to.
     pub(crate) fn of<F: Format>(Resampler { world, target, filter }: &Resampler) -> Self {
         let (width, height) = (target.width(), target.height());

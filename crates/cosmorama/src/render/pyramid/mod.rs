@@ -10,6 +10,7 @@ use super::apply::float::{FloatArithmetic, Uncoded};
 use super::batch::window::Level as Instructions;
 use super::progress::Watch;
 use super::pyramid::level_map::LevelMap;
+use super::scan::sampling::Sampling;
 use super::scan::wanted::Wanted;
 use super::{Plan, Resampler, plan};
 use crate::camera::ScreenPixel;
@@ -122,7 +123,7 @@ pub(crate) fn render(resampler: &Resampler, texels: &[Rgba], watch: Watch) -> Im
     let (pyramid, background) = (Pyramid::new(resampler), Rgba::TRANSPARENT);
     if pyramid.levels.is_empty() {
         let light = FloatArithmetic { texels, background, pixels: Uncoded };
-        return plan::render((&pyramid.level(0), None), light, Instructions::new(), watch);
+        return plan::render((&pyramid.level(0), Sampling::default()), light, Instructions::new(), watch);
     }
     let halvings: Vec<&Halving> = pyramid.levels.iter().map(|(_, halving)| halving).collect();
     let mut image = Image::zeroed(resampler.target.width(), resampler.target.height());
@@ -133,7 +134,7 @@ pub(crate) fn render(resampler: &Resampler, texels: &[Rgba], watch: Watch) -> Im
         let (resampler, wanted) = (pyramid.level(level), pyramid.wanted(level)?);
         let (light, task) =
             (FloatArithmetic { texels, background, pixels: Uncoded }, watch.task(level, halvings.len() + 1));
-        Some(plan::render((&resampler, Some(&wanted)), light, Instructions::new(), task))
+        Some(plan::render((&resampler, Sampling::only(&wanted)), light, Instructions::new(), task))
     });
     image
 }

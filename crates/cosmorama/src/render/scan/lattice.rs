@@ -4,6 +4,7 @@ use super::tile::{HALF, SIDE};
 use crate::camera::{Footprint, PixelPoint, View};
 use crate::filter::Kernel;
 use crate::filter::gather::cap::Cap;
+use crate::render::scan::sampling::Sampling;
 use crate::world::Source;
 
 /// Lattice of the points at which patches are measured. A patch has nine points, and shares some of them with its
@@ -11,6 +12,7 @@ use crate::world::Source;
 #[derive(Clone, Debug)]
 pub(crate) struct Lattice<'a> {
     target: &'a View,
+    sampling: Sampling<'a>,
     /// Whether pixels are taken as circles, as [`Kernel::round`](crate::filter::Kernel::round) says.
     round: bool,
     slots: Vec<Slot>,
@@ -22,7 +24,7 @@ pub(crate) struct Point {
     pub(crate) place: DVec2,
     /// Change of the place from pixel to pixel.
     pub(crate) slope: DMat2,
-    /// Axes of the pixel's footprint. They are the slope, unless pixels are taken as circles.
+    /// Axes of the pixel's footprint. They are the slope, unless pixels are taken as circles, or are those of a lens.
     pub(crate) jacobian: DMat2,
 }
 
@@ -31,7 +33,10 @@ pub(crate) struct Point {
 struct Slot {
     /// Pixel at whose centre the point lies.
     pixel: Option<[usize; 2]>,
+    /// Footprint of the pixel.
     screen: Option<Footprint>,
+    /// Direction and its derivatives: those of the footprint, unless that is a lens's.
+    step: Option<Footprint>,
     /// Point as a view sees it, with the view's index.
     seen: Option<(usize, Option<Point>)>,
 }
@@ -43,27 +48,31 @@ const ACROSS: usize = 32;
 const DOWN: usize = 4;
 
 impl Point {
-    /// Measures a footprint in a view; with `round`, its pixel counts as a circle.
-    pub(super) fn of(source: &Source, screen: &Footprint, round: bool) -> Option<Self> {
-        let (at, slope) = source.view.texel_footprint(screen)?;
-        let circle = round.then(|| source.view.texel_footprint(&screen.rounded()));
-        let jacobian = circle.flatten().map_or(slope, |(_, jacobian)| jacobian);
+    /// Measures a direction in a view, with its derivatives, and the footprint of a pixel there.
+    fn of(source: &Source, step: &Footprint, screen: &Footprint) -> Option<Self> {
+        let (at, slope) = source.view.texel_footprint(step)?;
+        let other = (screen != step).then(|| source.view.texel_footprint(screen));
+        let jacobian = other.flatten().map_or(slope, |(_, jacobian)| jacobian);
         Some(Self { place: DVec2::new(at.x, at.y), slope, jacobian })
     }
 }
 
 impl<'a> Lattice<'a> {
-    pub(crate) fn new(target: &'a View, kernel: &Kernel) -> Self {
-        Self { target, round: kernel.round, slots: vec![Slot::default(); ACROSS * DOWN] }
+    pub(crate) fn new((target, sampling): (&'a View, Sampling<'a>), kernel: &Kernel) -> Self {
+        Self { target, sampling, round: kernel.round, slots: vec![Slot::default(); ACROSS * DOWN] }
     }
 
     pub(crate) fn target(&self) -> &'a View {
         self.target
     }
 
-    /// Returns whether pixels are taken as circles.
-    pub(super) fn is_round(&self) -> bool {
-        self.round
+    /// Measures a pixel in a view, given its direction and its derivatives.
+    pub(super) fn measure(&self, source: &Source, step: &Footprint) -> Option<Point> {
+        self.shaped(source, step, &self.sampling.footprint(step)?)
+    }
+
+    fn shaped(&self, source: &Source, step: &Footprint, screen: &Footprint) -> Option<Point> {
+        Point::of(source, step, &if self.round { screen.rounded() } else { *screen })
     }
 
     /// Returns the footprint of a pixel whose column and row are multiples of half a patch.
@@ -77,14 +86,13 @@ impl<'a> Lattice<'a> {
         pixel: [usize; 2],
         (view, source): (usize, &Source),
     ) -> Option<(Footprint, Option<Point>)> {
-        let round = self.round;
-        let slot = self.slot(pixel);
-        let screen = slot.screen?;
-        let point = match slot.seen {
+        let Slot { screen, step, seen, .. } = *self.slot(pixel);
+        let screen = screen?;
+        let point = match seen {
             Some((known, point)) if known == view => point,
             _ => {
-                let point = Point::of(source, &screen, round);
-                slot.seen = Some((view, point));
+                let point = self.shaped(source, &step?, &screen);
+                self.slot(pixel).seen = Some((view, point));
                 point
             }
         };
@@ -103,8 +111,9 @@ impl<'a> Lattice<'a> {
     fn slot(&mut self, pixel @ [i, j]: [usize; 2]) -> &mut Slot {
         let slot = &mut self.slots[j / HALF % DOWN * ACROSS + i / HALF % ACROSS];
         if slot.pixel != Some(pixel) {
-            let screen = self.target.footprint(PixelPoint::centre(i, j));
-            *slot = Slot { pixel: Some(pixel), screen, seen: None };
+            let step = self.target.footprint(PixelPoint::centre(i, j));
+            let screen = step.as_ref().and_then(|step| self.sampling.footprint(step));
+            *slot = Slot { pixel: Some(pixel), screen, step, seen: None };
         }
         slot
     }
@@ -119,7 +128,7 @@ mod tests {
     fn points_are_those_of_the_pixels_asked_for() {
         let (target, sky) = (panorama(800, 400), panorama(640, 320));
         let world = World::new(["a", "b"].map(|name| (name.to_owned(), sky.clone()))).expect("two views");
-        let mut lattice = Lattice::new(&target, &Kernel::ADAPTIVE);
+        let mut lattice = Lattice::new((&target, Sampling::default()), &Kernel::ADAPTIVE);
         // Pixels that share one slot, each of them twice, and in two views.
         for (k, pixel) in [[4, 8], [4 + 128, 8], [4, 8], [4, 24], [4, 24], [8, 24], [4, 8]].into_iter().enumerate() {
             let exact = target.footprint(PixelPoint::centre(pixel[0], pixel[1]));

@@ -1,6 +1,7 @@
 pub(crate) mod lattice;
 pub(crate) mod patch;
 pub(crate) mod patch_interpolation;
+pub(crate) mod sampling;
 #[cfg(test)]
 mod tests;
 pub(crate) mod tile;
@@ -13,9 +14,9 @@ use super::batch::weights::Weigher;
 use super::batch::window::{Level, Windows};
 use super::scan::lattice::Lattice;
 use super::scan::patch::Patch;
+use super::scan::sampling::Sampling;
 use super::scan::tile::{HALF, SIDE};
-use super::scan::wanted::Wanted;
-use crate::camera::PixelRect;
+use crate::camera::{PixelRect, ScreenPixel};
 use crate::filter::gather::pixel_taps::PixelTaps;
 use crate::filter::kernel::KernelTable;
 use crate::filter::taps::Taps;
@@ -31,8 +32,7 @@ pub(crate) struct Scan<'a> {
     /// Weigher, for filters that work in windows.
     weigher: Option<Weigher>,
     lattice: Lattice<'a>,
-    /// Patches to scan, if not all.
-    wanted: Option<&'a Wanted>,
+    sampling: Sampling<'a>,
 }
 
 /// A part of a target.
@@ -56,16 +56,15 @@ pub(crate) trait Sink {
 
 impl<'a> Scan<'a> {
     /// Prepares a scan; `table` belongs to the filter's kernel.
-    pub(crate) fn new(resampler: &'a Resampler<'a>, table: &'a KernelTable, level: Level) -> Self {
+    pub(crate) fn new(
+        (resampler, sampling): (&'a Resampler<'a>, Sampling<'a>),
+        table: &'a KernelTable,
+        level: Level,
+    ) -> Self {
         let Resampler { world, target, filter } = resampler;
         let weigher = filter.kind.is_elliptical().then(|| Weigher::new(&filter.kernel, level)).flatten();
         let pixels = PixelTaps::new(world, target, filter, table);
-        Self { resampler, pixels, weigher, lattice: Lattice::new(target, &filter.kernel), wanted: None }
-    }
-
-    /// Restricts the scan to these patches.
-    pub(crate) fn only(self, wanted: Option<&'a Wanted>) -> Self {
-        Self { wanted, ..self }
+        Self { resampler, pixels, weigher, lattice: Lattice::new((target, sampling), &filter.kernel), sampling }
     }
 
     /// Scans all pixels of a part that show something.
@@ -92,7 +91,7 @@ impl<'a> Scan<'a> {
     }
 
     fn patch(&mut self, [left, top]: [usize; 2], columns: usize, rows: &Range<usize>, sink: &mut impl Sink) {
-        if self.wanted.is_some_and(|wanted| !wanted.holds([left, top])) {
+        if self.sampling.wanted.is_some_and(|wanted| !wanted.holds([left, top])) {
             return;
         }
         let first = rows.start;
@@ -118,7 +117,8 @@ impl<'a> Scan<'a> {
             }
             for lane in (0..count).filter(|lane| made >> lane & 1 == 0) {
                 let Some(screen) = target.screen_pixel(left + lane, row) else { continue };
-                let Some(taps) = self.pixels.taps(&screen) else { continue };
+                let Some(footprint) = self.sampling.footprint(&screen.footprint) else { continue };
+                let Some(taps) = self.pixels.taps(&ScreenPixel { footprint, ..screen }) else { continue };
                 sink.pixel([left + lane, within], screen.coverage as f32, taps);
             }
         }

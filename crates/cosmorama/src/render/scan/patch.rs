@@ -135,7 +135,7 @@ impl Exact {
         source: &Source,
         (origin, middle): (DVec2, DMat2),
     ) -> Option<Self> {
-        let (target, round) = (lattice.target(), lattice.is_round());
+        let target = lattice.target();
         let bound = CHANGE * largest(middle);
         let mut exact = Self { place: [[[0.0; SIDE]; SIDE]; 2], jacobian: [[[0.0; SIDE]; SIDE]; 4] };
         for row in 0..SIDE {
@@ -144,7 +144,7 @@ impl Exact {
                 if target.is_steep_at(&footprint) {
                     return None;
                 }
-                let Point { place: at, jacobian, .. } = Point::of(source, &footprint, round)?;
+                let Point { place: at, jacobian, .. } = lattice.measure(source, &footprint)?;
                 if !(jacobian.is_finite() && at.x.is_finite() && at.y.is_finite() && largest(jacobian - middle) < bound)
                 {
                     return None;

@@ -72,8 +72,11 @@ fn collect(scan: &mut Scan, target: &View) -> Collector {
 fn check_windows(world: &World, target: &View, kernel: Kernel) -> usize {
     let resampler = Resampler { world, target, filter: FilterSettings { kernel, ..FilterSettings::DEFAULT } };
     let table = KernelTable::new(&kernel);
-    let fast = collect(&mut Scan::new(&resampler, &table, Level::new()), target);
-    let slow = collect(&mut Scan { weigher: None, ..Scan::new(&resampler, &table, Level::new()) }, target);
+    let fast = collect(&mut Scan::new((&resampler, Sampling::default()), &table, Level::new()), target);
+    let slow = collect(
+        &mut Scan { weigher: None, ..Scan::new((&resampler, Sampling::default()), &table, Level::new()) },
+        target,
+    );
     let mut differences = Vec::new();
     for (fast, slow) in fast.weights.iter().zip(&slow.weights) {
         let largest = slow.iter().fold(0f32, |largest, (_, weight)| largest.max(weight.abs()));
@@ -206,7 +209,7 @@ fn what_the_lower_cut_hides_is_passed_over_and_no_more() {
             let target = View { stop, ..view(projection.clone(), (size, size), (1.0, 1.0), turned) };
             let resampler = Resampler { world: &world, target: &target, filter: FilterSettings::DEFAULT };
             let table = KernelTable::new(&resampler.filter.kernel);
-            let mut scan = Scan::new(&resampler, &table, Level::new());
+            let mut scan = Scan::new((&resampler, Sampling::default()), &table, Level::new());
             let rows = (0..size).step_by(SIDE);
             for first @ [left, top] in rows.flat_map(|j| (0..size).step_by(SIDE).map(move |i| [i, j])) {
                 let rect = PixelRect { left, top, right: left + SIDE, bottom: top + SIDE };
@@ -265,7 +268,7 @@ fn deep_pictures_are_what_each_pixel_makes_by_itself_in_double_precision() {
             let table = KernelTable::new(&resampler.filter.kernel);
             let image = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
             let mut exact = Averages { texels: &texels, image };
-            let mut scan = Scan { weigher: None, ..Scan::new(&resampler, &table, Level::new()) };
+            let mut scan = Scan { weigher: None, ..Scan::new((&resampler, Sampling::default()), &table, Level::new()) };
             scan.pixels(&whole(target), &mut exact);
             let made = resampler.render(&texels);
             let whole = made.pixels().iter().zip(exact.image.pixels()).filter(|(_, exact)| exact.alpha() == 1.0);

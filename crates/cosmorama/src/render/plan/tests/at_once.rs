@@ -45,7 +45,7 @@ fn at_once(world: &World, target: &View) -> usize {
                 Counted(&BandFilter { level, mirrors: &mirrors, anti_ringing, arithmetic }, AtomicUsize::new(0));
             let mut still = Image::zeroed(target.width(), target.height());
             let pixels = (still.pixels_mut(), codec.background());
-            each_band((&resampler, None), &mirrors, pixels, (level, Watch::NONE), &maker);
+            each_band((&resampler, Sampling::default()), &mirrors, pixels, (level, Watch::NONE), &maker);
             assert!(still == frame, "{:?} with anti-ringing {anti_ringing}", target.projection);
             count = maker.1.into_inner();
         }

@@ -25,11 +25,11 @@ fn resampler<'a>(world: &'a World, target: &'a View) -> Resampler<'a> {
 }
 
 fn float(resampler: &Resampler) -> Compiled<FloatFormat> {
-    Compiled::new((resampler, None), Level::new(), Watch::NONE)
+    Compiled::new((resampler, Sampling::default()), Level::new(), Watch::NONE)
 }
 
 fn fixed(resampler: &Resampler) -> Compiled<FixedFormat> {
-    Compiled::new((resampler, None), Level::new(), Watch::NONE)
+    Compiled::new((resampler, Sampling::default()), Level::new(), Watch::NONE)
 }
 
 #[test]
@@ -126,7 +126,13 @@ fn what_mirrors_show_is_what_would_be_computed() {
         let (level, background) = (Level::new(), Rgba::TRANSPARENT);
         let arithmetic = FloatArithmetic { texels: &texels, background, pixels: Uncoded };
         let filter = BandFilter { level, mirrors: &alone, anti_ringing: true, arithmetic };
-        each_band((&resampler, None), &alone, (expected.pixels_mut(), background), (level, Watch::NONE), &filter);
+        each_band(
+            (&resampler, Sampling::default()),
+            &alone,
+            (expected.pixels_mut(), background),
+            (level, Watch::NONE),
+            &filter,
+        );
         let made = resampler.render(&texels);
         for (a, b) in made.pixels().iter().zip(expected.pixels()) {
             // Patches lie differently in the two pictures. A pixel of a patch may be a single pixel in the other, with
@@ -243,7 +249,7 @@ fn windows_of_floats_make_what_their_texels_make_one_by_one() {
             let maker = by_bands(|band: &Band<NoWindows>, canvas| {
                 dispatch!(level, simd => band.singles.fill(simd, &mirrors, (&arithmetic, anti_ringing), canvas));
             });
-            each_band((&resampler, None), &mirrors, pixels, (level, Watch::NONE), &maker);
+            each_band((&resampler, Sampling::default()), &mirrors, pixels, (level, Watch::NONE), &maker);
             let pixels = (expected.pixels_mut(), background);
             let maker = by_bands(|band: &Band<NoWindows>, canvas: &mut Canvas<Rgba>| {
                 for single in band.singles.pixels() {
@@ -259,7 +265,7 @@ fn windows_of_floats_make_what_their_texels_make_one_by_one() {
                     }
                 }
             });
-            each_band((&resampler, None), &mirrors, pixels, (level, Watch::NONE), &maker);
+            each_band((&resampler, Sampling::default()), &mirrors, pixels, (level, Watch::NONE), &maker);
             assert!(one_by_one == expected, "to the last bit");
             for (made, expected) in resampler.render(&texels).pixels().iter().zip(expected.pixels()) {
                 assert!((0..4).all(|c| (made.0[c] - expected.0[c]).abs() < 4e-6), "{made:?} is not {expected:?}");
@@ -279,7 +285,7 @@ fn all_levels_of_instructions_make_the_same_pixels() {
             let mut codes = Image::filled(target.width(), target.height(), codec.background());
             plan.fill(FixedArithmetic { light: &light, codec: &codec }, level, &mut codes);
             let arithmetic = FloatArithmetic { texels: &texels, background: Rgba::TRANSPARENT, pixels: Uncoded };
-            (render((&resampler, None), arithmetic, level, Watch::NONE), codes)
+            (render((&resampler, Sampling::default()), arithmetic, level, Watch::NONE), codes)
         };
         let mut all = crate::filter::rim::simd_levels::levels().into_iter().map(made);
         let first = all.next().expect("at least the plain one");
@@ -292,8 +298,8 @@ fn all_levels_of_instructions_make_the_same_plans() {
     for (world, target, _) in conversions() {
         let resampler = resampler(&world, &target);
         let made = |level| {
-            let fixed = Compiled::<FixedFormat>::new((&resampler, None), level, Watch::NONE);
-            let floats = Compiled::<FloatFormat>::new((&resampler, None), level, Watch::NONE);
+            let fixed = Compiled::<FixedFormat>::new((&resampler, Sampling::default()), level, Watch::NONE);
+            let floats = Compiled::<FloatFormat>::new((&resampler, Sampling::default()), level, Watch::NONE);
             // Compared as text, which tells all numbers apart.
             (format!("{:?}", fixed.bands), format!("{:?}", floats.bands))
         };

@@ -43,7 +43,7 @@ fn bands_of_large_windows_are_made_before_they_are_all_there() {
             most = most.max(band.weights.len());
             band.clear();
         };
-        record((&resampler, None), &mirrors, &table, 0..BAND.min(mirrors.rows), level, &mut band, spill);
+        record((&resampler, Sampling::default()), &mirrors, &table, 0..BAND.min(mirrors.rows), level, &mut band, spill);
         most = most.max(band.weights.len());
     }
     // The limit and one more patch, whose windows have a thousand texels each and some marks.

@@ -14,7 +14,8 @@ const OTHER: usize = 6;
 fn counts<F: Format>() -> Counts {
     let mut counts = Counts::default();
     for (world, target, _) in conversions() {
-        let compiled = Compiled::<F>::new((&resampler(&world, &target), None), Level::new(), Watch::NONE);
+        let compiled =
+            Compiled::<F>::new((&resampler(&world, &target), Sampling::default()), Level::new(), Watch::NONE);
         let groups = compiled.bands.iter().flat_map(|band| band.groups().map(|group| (&band.weights, group)));
         for (weights, group) in groups {
             let ways = compiled.mirrors.ways(usize::from(group[0].view));

@@ -1,0 +1,336 @@
+//! A view that turns about one axis while a shutter is open, rendered once.
+//!
+//! Seen from the axis, all directions of one latitude go the same way along their *ring*, and pixels see the same light one
+//! after the other. So this light is sampled once: in a panorama whose poles are the axis, and each of whose samples is what
+//! a pixel of the view would be there, of its own size and shape and by its own filter. Its rows are blurred by the shutter,
+//! and each pixel is interpolated from them. Where interpolation cannot be trusted, the pixel is left to the caller.
+
+mod cells;
+mod taps;
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use fearless_simd::{Level, dispatch};
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+use super::Exposure;
+use super::turning::{Turning, lattice};
+use crate::camera::{CameraModel, EquirectCamera, PixelGrid, PixelPoint, View};
+use crate::filter::{CrossSection, FilterKind, FilterSettings};
+use crate::raster::{Image, Rgba};
+use crate::render::{Progress, Resampler, Sampling, Stopped, Wanted};
+use crate::sphere::{Direction, Orientation};
+use crate::world::World;
+use cells::{Cell, Cells, Frame, SIDE};
+use taps::{BEFORE, REACH, Taps, blur, four, six};
+
+/// Samples along a ring, and across rings, for the length of the kernel's unit. Between rings light is interpolated; along them
+/// it is summed, which asks for less.
+const DENSITY: [f64; 2] = [1.25, 1.75];
+
+/// Part of the view's points for which this density is enough; elsewhere pixels are finer.
+const MOST: f64 = 0.75;
+
+/// Light of a shutter by the angle of the turn.
+#[derive(Clone, Debug)]
+pub(super) enum Profile {
+    /// At some angles, each with a weight.
+    Moments(Vec<(f64, f64)>),
+    /// A Gaussian of this mean and standard deviation.
+    Gaussian { mean: f64, deviation: f64 },
+}
+
+/// Standard deviations after which a Gaussian ends.
+const TAIL: f64 = 4.0;
+
+impl Profile {
+    /// Returns the taps for rows of so many samples per radian.
+    fn taps(&self, density: f64) -> Taps {
+        // What is seen under a positive angle about the axis lies to the left.
+        match self {
+            Self::Moments(moments) => {
+                let offsets: Vec<_> = moments.iter().map(|(angle, weight)| (-angle * density, *weight)).collect();
+                Taps::at(&offsets)
+            }
+            Self::Gaussian { mean, deviation } => {
+                // Half a sample, or less than the Gaussian itself, from one to the next.
+                let count = (TAIL * (2.0 * deviation * density).max(4.0)).ceil();
+                let offset = |k: i64| {
+                    let x = TAIL * k as f64 / count;
+                    (-(mean + x * deviation) * density, (-0.5 * x * x).exp())
+                };
+                Taps::at(&(-count as i64..=count as i64).map(offset).collect::<Vec<_>>())
+            }
+        }
+    }
+}
+
+/// Light along the rings of a turning view.
+pub(super) struct Rings<'a> {
+    /// View whose pixels are sampled.
+    lens: &'a View,
+    resampler: (&'a World, FilterSettings),
+    cells: Cells,
+    /// Panorama about the axis.
+    view: View,
+    /// First column and first row of the panorama, counted in samples from the front.
+    first: [i64; 2],
+    is_whole_turn: bool,
+    taps: Taps,
+    wanted: Wanted,
+}
+
+/// A picture, and which of its cells are left to be made otherwise.
+pub(super) struct Swept {
+    pub(super) image: Image<Rgba>,
+    /// Cells of 8 × 8 pixels, row by row.
+    pub(super) is_left: Vec<bool>,
+}
+
+impl<'a> Rings<'a> {
+    /// Prepares the rings of some views, which turn as `turning` says. `None` where the filter is none that can be sampled, or
+    /// where there would be too many samples.
+    pub(super) fn new(
+        views: &'a [(View, f32)],
+        turning: &Turning,
+        profile: &Profile,
+        resampler: (&'a World, FilterSettings),
+    ) -> Option<Self> {
+        let lens = &views[turning.middle].0;
+        if !is_sampled(&resampler.1) {
+            return None;
+        }
+        let frame = frame(lens, turning.axis, resampler)?;
+        let taps = profile.taps(frame.density[0]);
+        let cells = Cells::of(lens, &frame);
+        let [least, most] = cells.bounds()?;
+        let period = (TAU * frame.density[0]).round() as i64;
+        let (after, reach) = (REACH as i64 - BEFORE, taps.last().max(-taps.first) + REACH as i64);
+        let (left, right) = (least[0].floor() as i64 - reach, most[0].floor() as i64 + reach);
+        let is_whole_turn = right - left >= period;
+        let (left, right) = if is_whole_turn { (-period / 2, period - period / 2) } else { (left, right) };
+        // Rows end at the poles.
+        let pole = (FRAC_PI_2 * frame.density[1]).floor() as i64;
+        let (top, bottom) =
+            ((least[1].floor() as i64 - BEFORE).max(-pole), (most[1].floor() as i64 + after).min(pole + 1));
+        let (width, height) = ((right - left) as usize, (bottom - top).max(1) as usize);
+        if width.checked_mul(height)? > Exposure::MOST_SAMPLES * lens.width() * lens.height() {
+            return None;
+        }
+        let origin = PixelPoint::new(0.5 - left as f64, 0.5 - top as f64);
+        let step = DVec2::new(frame.density[0].recip(), frame.density[1].recip());
+        let view = View {
+            orientation: frame.orientation,
+            grid: PixelGrid::centred(width, height, origin, step),
+            ..CameraModel::from(EquirectCamera::default()).view(width, height).ok()?
+        };
+        let mut rings = Self {
+            lens,
+            resampler,
+            cells,
+            view,
+            first: [left, top],
+            is_whole_turn,
+            taps,
+            wanted: Wanted::new([0, 0], |_| false),
+        };
+        rings.wanted = rings.needed();
+        Some(rings)
+    }
+
+    /// Returns the patches of the panorama that any pixel needs.
+    fn needed(&self) -> Wanted {
+        let (width, height) = (self.view.width() as i64, self.view.height() as i64);
+        let (across, down) = (self.view.width().div_ceil(SIDE), self.view.height().div_ceil(SIDE));
+        let mut marks = vec![false; across * down];
+        let (from, to) = (self.taps.first - BEFORE, self.taps.last() + REACH as i64 - BEFORE);
+        for [least, most] in self.cells.cells.iter().filter_map(Cell::bounds) {
+            let at = |place: f64, axis: usize| place.floor() as i64 - self.first[axis];
+            let rows = (at(least[1], 1) - BEFORE).max(0)..(at(most[1], 1) + REACH as i64 - BEFORE).min(height);
+            let columns = at(least[0], 0) + from..at(most[0], 0) + to;
+            for row in (rows.start as usize / SIDE)..(rows.end.max(0) as usize).div_ceil(SIDE) {
+                let mut column = columns.start;
+                while column < columns.end {
+                    let inside = if self.is_whole_turn { column.rem_euclid(width) } else { column.clamp(0, width - 1) };
+                    marks[row * across + inside as usize / SIDE] = true;
+                    // To the first column of the next patch, but not beyond the last column that is needed.
+                    column += SIDE as i64 - inside % SIDE as i64;
+                    if self.is_whole_turn && inside + SIDE as i64 > width {
+                        column = column.min(columns.start + width * ((column - columns.start) / width + 1));
+                    }
+                }
+            }
+        }
+        Wanted::new([self.view.width(), self.view.height()], |[i, j]| marks[j / SIDE * across + i / SIDE])
+    }
+
+    /// Renders the view. `tolerance` is the greatest difference, between two ways to interpolate, at which a pixel is kept:
+    /// absolute for light up to 1, and relative to brighter light.
+    pub(super) fn render(&self, texels: &[Rgba], tolerance: f32, progress: &dyn Progress) -> Result<Swept, Stopped> {
+        let (world, filter) = self.resampler;
+        let sampling = Sampling { wanted: Some(&self.wanted), lens: Some(self.lens) };
+        let mut panorama = Resampler::new(world, &self.view).by(filter).render_sampled(sampling, texels, progress)?;
+        self.blur(&mut panorama);
+        Ok(self.look_up(&panorama, tolerance))
+    }
+
+    /// Blurs the rows of the panorama along themselves.
+    fn blur(&self, panorama: &mut Image<Rgba>) {
+        let (width, level) = (panorama.width(), Level::new());
+        let before = -self.taps.first;
+        let room = width + self.taps.weights.len() - 1;
+        let rows = panorama.pixels_mut().par_chunks_mut(width).enumerate();
+        rows.for_each_init(Vec::new, |padded: &mut Vec<Rgba>, (row, pixels)| {
+            let is_wanted = |column: &usize| self.wanted.holds([*column, row]);
+            let mut patches = (0..width).step_by(SIDE).filter(is_wanted);
+            let Some(first) = patches.next() else { return };
+            let end = (patches.last().unwrap_or(first) + SIDE).min(width);
+            padded.clear();
+            padded.extend((0..room as i64).map(|at| {
+                let column = at - before;
+                match usize::try_from(column) {
+                    Ok(column) if column < width => pixels[column],
+                    _ if self.is_whole_turn => pixels[column.rem_euclid(width as i64) as usize],
+                    _ => Rgba::TRANSPARENT,
+                }
+            }));
+            dispatch!(level, _simd => blur(&self.taps.weights, &padded[first..], &mut pixels[first..end]));
+        });
+    }
+
+    /// Interpolates each pixel between the blurred rings.
+    fn look_up(&self, panorama: &Image<Rgba>, tolerance: f32) -> Swept {
+        let (width, height, level) = (self.lens.width(), self.lens.height(), Level::new());
+        let mut image = Image::zeroed(width, height);
+        let mut is_left = vec![false; self.cells.cells.len()];
+        let across = self.cells.across;
+        let bands = image.pixels_mut().par_chunks_mut(width * SIDE).zip(is_left.par_chunks_mut(across)).enumerate();
+        bands.for_each(|(band, (pixels, is_left))| {
+            let cells = &self.cells.cells[band * across..][..across];
+            dispatch!(level, _simd => self.look_up_band(panorama, tolerance, cells, (pixels, is_left)));
+        });
+        Swept { image, is_left: with_neighbours(&is_left, across) }
+    }
+
+    #[inline(always)]
+    fn look_up_band(
+        &self,
+        panorama: &Image<Rgba>,
+        tolerance: f32,
+        cells: &[Cell],
+        (pixels, is_left): (&mut [Rgba], &mut [bool]),
+    ) {
+        let width = self.lens.width();
+        for (row, pixels) in pixels.chunks_mut(width).enumerate() {
+            let cells = cells.iter().zip(is_left.iter_mut()).zip(pixels.chunks_mut(SIDE));
+            for ((cell, is_left), pixels) in cells.filter(|((_, is_left), _)| !**is_left) {
+                for (column, into) in pixels.iter_mut().enumerate() {
+                    let Some(pixel) = cell.pixel(column, row) else { continue };
+                    match self.at(panorama, pixel.place, tolerance) {
+                        Some(light) => *into = light * pixel.coverage,
+                        None => *is_left = true,
+                    }
+                }
+            }
+        }
+    }
+
+    /// Interpolates the light at a place; `None` where it is not certain enough.
+    #[inline(always)]
+    fn at(&self, panorama: &Image<Rgba>, place: [f64; 2], tolerance: f32) -> Option<Rgba> {
+        let floor = place.map(f64::floor);
+        let [x, y] = [0, 1].map(|axis| floor[axis] as i64 - self.first[axis] - BEFORE);
+        let (width, height) = (panorama.width(), panorama.height());
+        let reach = REACH as i64;
+        if y < 0 || y + reach > height as i64 {
+            return None;
+        }
+        let is_inside = x >= 0 && x + reach <= width as i64;
+        if !is_inside && !self.is_whole_turn {
+            return None;
+        }
+        // Rows are blurred: along them four samples are enough.
+        let along = four(place[0] - floor[0]).map(|weight| weight as f32);
+        let mut rings = [[0.0f32; 4]; REACH];
+        for (k, ring) in rings.iter_mut().enumerate() {
+            let row = panorama.row(y as usize + k);
+            let samples: [Rgba; 4] = if is_inside {
+                *row[x as usize + 1..].first_chunk()?
+            } else {
+                std::array::from_fn(|at| row[(x + 1 + at as i64).rem_euclid(width as i64) as usize])
+            };
+            for (weight, sample) in along.iter().zip(&samples) {
+                ring.iter_mut().zip(sample.0).for_each(|(sum, light)| *sum += weight * light);
+            }
+        }
+        let t = place[1] - floor[1];
+        let sum = |weights: &[f32], rings: &[[f32; 4]]| {
+            let mut sum = [0.0f32; 4];
+            for (weight, ring) in weights.iter().zip(rings) {
+                sum.iter_mut().zip(ring).for_each(|(sum, light)| *sum += weight * light);
+            }
+            sum
+        };
+        let light = sum(&six(t).map(|weight| weight as f32), &rings);
+        let rough = sum(&four(t).map(|weight| weight as f32), &rings[1..]);
+        let is_certain = light.iter().zip(&rough).all(|(a, b)| (a - b).abs() <= tolerance * a.abs().max(1.0));
+        is_certain.then_some(Rgba(light))
+    }
+}
+
+/// Marks the cells around those that are marked, too: where a streak is too bright for interpolation, so are its ends.
+fn with_neighbours(is_marked: &[bool], across: usize) -> Vec<bool> {
+    let down = is_marked.len() / across.max(1);
+    let around = |at: usize, of: usize| at.saturating_sub(1)..(at + 2).min(of);
+    let is_near = |at: usize| {
+        let mut cells =
+            around(at / across, down).flat_map(|j| around(at % across, across).map(move |i| j * across + i));
+        cells.any(|cell| is_marked[cell])
+    };
+    (0..is_marked.len()).map(is_near).collect()
+}
+
+/// Returns whether a filter's pixels change smoothly from place to place, so that they can be interpolated.
+fn is_sampled(filter: &FilterSettings) -> bool {
+    let is_smooth = |section: CrossSection| !matches!(section, CrossSection::Box | CrossSection::Tent);
+    filter.kind == FilterKind::Ewa && is_smooth(filter.kernel.fine) && is_smooth(filter.kernel.coarse)
+}
+
+/// Returns the frame about an axis with the density that a view's finest pixels need.
+fn frame(lens: &View, axis: DVec3, resampler: (&World, FilterSettings)) -> Option<Frame> {
+    let middle = PixelPoint::new(lens.width() as f64 / 2.0, lens.height() as f64 / 2.0);
+    let towards = lens.direction(middle).map_or(DVec3::ZERO, Direction::vector);
+    let front = (towards - axis * axis.dot(towards)).try_normalize().unwrap_or_else(|| axis.any_orthonormal_vector());
+    let [right, up, front] = [front.cross(axis), axis, front].map(Direction::from_unit);
+    let orientation = Orientation::from_axes(right, up, front);
+    let needed: Vec<[f64; 2]> = lattice(lens).filter_map(|point| density(lens, point, axis, resampler)).collect();
+    let [along, across] = [0, 1].map(|way| usual(needed.iter().map(|needed| needed[way])));
+    let is_possible = along.is_finite() && across.is_finite() && across > 0.0;
+    // A whole number of columns all the way round.
+    let along = (TAU * along).ceil().max(1.0) / TAU;
+    is_possible.then_some(Frame { orientation, density: [along, across] })
+}
+
+/// Returns the density that is enough for most points. Where more is needed, interpolation tells that it is not certain.
+fn usual(needed: impl Iterator<Item = f64>) -> f64 {
+    let mut needed: Vec<f64> = needed.collect();
+    needed.sort_by(f64::total_cmp);
+    needed.get((needed.len().saturating_sub(1) as f64 * MOST) as usize).copied().unwrap_or(0.0)
+}
+
+/// Returns how many samples per radian of longitude and of latitude a point of the view needs.
+fn density(lens: &View, point: PixelPoint, axis: DVec3, (world, filter): (&World, FilterSettings)) -> Option<[f64; 2]> {
+    let (seen, pixel) = (lens.direction(point)?, lens.texel(point)?);
+    let direction = seen.vector();
+    let along = direction.cross(axis);
+    let (cosine, along) = (along.length(), along.try_normalize()?);
+    let texel = world.owner(seen).and_then(|(view, at)| world.sources()[view].view.texel(at));
+    // Length of the kernel's unit, in radians.
+    let unit = |tangent: DVec3| {
+        let pixels = pixel.pseudo_inverse(tangent).map_or(f64::INFINITY, DVec2::length);
+        let texels = texel.and_then(|texel| texel.pseudo_inverse(tangent)).map_or(f64::INFINITY, DVec2::length);
+        (filter.kernel.scale / pixels).max(filter.kernel.floor / texels)
+    };
+    Some([DENSITY[0] * cosine / unit(along), DENSITY[1] / unit(along.cross(direction))])
+}

@@ -1,0 +1,357 @@
+//! Pictures of all moments of an exposure together.
+
+use std::ops::Range;
+
+use super::rings::{Profile, Rings, Swept};
+use super::strip::Strip;
+use super::turning::{Tolerance, Turning};
+use super::{Exposure, LightSum};
+use crate::camera::View;
+use crate::filter::{Ewa, FilterKind, FilterSettings};
+use crate::raster::{Image, Rgba};
+use crate::render::{Progress, Resampler, Share, Stopped};
+use crate::world::World;
+
+/// Least number of moments for which rings cost less than the moments' pictures.
+const LEAST: usize = 12;
+
+/// Deviations from a turn about one axis at which rings make the picture that moments make.
+const TURN: Tolerance = Tolerance { place: 0.03, size: 0.01 };
+
+/// Deviations at which ellipses are told by their rings: they are not exact either.
+const ABOUT: Tolerance = Tolerance { place: 0.1, size: 0.1 };
+
+/// Greatest uncertainty of a pixel, of white or of its own light where that is brighter.
+const CERTAIN: f32 = 1.0 / 1000.0;
+
+impl Exposure {
+    /// Renders the world through the open shutter: each pixel is the mean of what it sees on its way. What turns about one axis is
+    /// made at once, and the rest moment by moment.
+    ///
+    /// # Errors
+    /// If the work is stopped.
+    ///
+    /// # Panics
+    /// As [`Resampler::render`].
+    pub fn swept(
+        &self,
+        (world, filter): (&World, FilterSettings),
+        texels: &[Rgba],
+        progress: &dyn Progress,
+    ) -> Result<Image<Rgba>, Stopped> {
+        let views = self.views();
+        let mut sum: Option<LightSum> = None;
+        for part in parts(views, (world, filter), 0..views.len()) {
+            let done = |index: usize| index as f64 / views.len() as f64;
+            let share = Share { whole: progress, from: done(part.views.start), to: done(part.views.end) };
+            let some = &views[part.views.clone()];
+            let weight: f32 = some.iter().map(|(_, weight)| weight).sum();
+            let image = match &part.rings {
+                Some(rings) => by_rings(rings, some, (world, filter), texels, &share)?,
+                None => by_moments(some, (world, filter), texels, &share)?,
+            };
+            match &mut sum {
+                Some(sum) => sum.add(&image, weight),
+                None => sum = Some(LightSum::new(image, weight)),
+            }
+        }
+        Ok(sum.map_or_else(|| Image::filled(0, 0, Rgba::TRANSPARENT), LightSum::into_image))
+    }
+}
+
+impl Exposure {
+    /// Averages the world for each pixel over its footprint and its path together, as [`Exposure::ellipse`] does, but for all
+    /// pixels at once where the view turns about one axis. There ellipses follow the bends of their ways.
+    ///
+    /// # Errors
+    /// If the work is stopped.
+    ///
+    /// # Panics
+    /// As [`Resampler::render`].
+    pub fn ellipses(&self, world: &World, texels: &[Rgba], progress: &dyn Progress) -> Result<Image<Rgba>, Stopped> {
+        let prepared = Self::FILTER.of_texels(world, texels);
+        let rings = Turning::of(self.views(), ABOUT).and_then(|turning| {
+            let profile = self.gaussian(&turning.angles);
+            let Ewa { kernel, anti_ringing } = Self::FILTER;
+            let filter = FilterSettings { kind: FilterKind::Ewa, kernel, anti_ringing };
+            Rings::new(self.views(), &turning, &profile, (world, filter))
+        });
+        let Some(rings) = rings else {
+            let image = self.ellipse(&*prepared);
+            return if progress.advance(1.0).is_break() { Err(Stopped) } else { Ok(image) };
+        };
+        // An ellipse is no more than near to what is seen, so that any interpolation is good enough.
+        let Swept { mut image, is_left } = rings.render(texels, f32::INFINITY, progress)?;
+        self.fill_by_ellipses(&mut image, &is_left, &*prepared);
+        Ok(image)
+    }
+
+    /// Returns the Gaussian of the light over the angles of the views.
+    fn gaussian(&self, angles: &[f64]) -> Profile {
+        let sum = |of: &dyn Fn(f64) -> f64| {
+            self.views().iter().zip(angles).map(|((_, weight), angle)| f64::from(*weight) * of(*angle)).sum::<f64>()
+        };
+        let mean = sum(&|angle| angle);
+        let variance = (sum(&|angle| angle * angle) - mean * mean).max(0.0) * self.spread();
+        Profile::Gaussian { mean, deviation: variance.sqrt() }
+    }
+}
+
+/// Views that follow one another, with their rings if they turn about one axis.
+struct Part<'a> {
+    views: Range<usize>,
+    rings: Option<Rings<'a>>,
+}
+
+/// Divides an exposure into parts that turn about one axis each, as far as that pays.
+fn parts<'a>(views: &'a [(View, f32)], resampler: (&'a World, FilterSettings), range: Range<usize>) -> Vec<Part<'a>> {
+    if range.len() < LEAST {
+        return vec![Part { views: range, rings: None }];
+    }
+    let some = &views[range.clone()];
+    let rings = Turning::of(some, TURN).and_then(|turning| {
+        let weights = some.iter().map(|(_, weight)| f64::from(*weight));
+        let profile = Profile::Moments(turning.angles.iter().copied().zip(weights).collect());
+        Rings::new(some, &turning, &profile, resampler)
+    });
+    if rings.is_some() {
+        return vec![Part { views: range, rings }];
+    }
+    let middle = range.start + range.len() / 2;
+    let mut halves = parts(views, resampler, range.start..middle);
+    halves.extend(parts(views, resampler, middle..range.end));
+    if halves.iter().any(|part| part.rings.is_some()) { halves } else { vec![Part { views: range, rings: None }] }
+}
+
+/// Averages the pictures of some moments.
+fn by_moments(
+    views: &[(View, f32)],
+    (world, filter): (&World, FilterSettings),
+    texels: &[Rgba],
+    progress: &dyn Progress,
+) -> Result<Image<Rgba>, Stopped> {
+    let total: f32 = views.iter().map(|(_, weight)| weight).sum();
+    let mut sum: Option<LightSum> = None;
+    for (index, (view, weight)) in views.iter().enumerate() {
+        let done = |index: usize| index as f64 / views.len() as f64;
+        let share = Share { whole: progress, from: done(index), to: done(index + 1) };
+        let image = Resampler::new(world, view).by(filter).watched(&share).render(texels)?;
+        match &mut sum {
+            Some(sum) => sum.add(&image, weight / total),
+            None => sum = Some(LightSum::new(image, weight / total)),
+        }
+    }
+    Ok(sum.map_or_else(|| Image::filled(0, 0, Rgba::TRANSPARENT), LightSum::into_image))
+}
+
+/// Renders some views by their rings, and by moments where rings are not certain enough.
+fn by_rings(
+    rings: &Rings,
+    views: &[(View, f32)],
+    resampler: (&World, FilterSettings),
+    texels: &[Rgba],
+    progress: &dyn Progress,
+) -> Result<Image<Rgba>, Stopped> {
+    let beginning = Share { whole: progress, from: 0.0, to: 0.5 };
+    let Swept { mut image, is_left } = rings.render(texels, CERTAIN, &beginning)?;
+    let strips = Strip::all(&is_left, [image.width(), image.height()]);
+    for (index, strip) in strips.iter().enumerate() {
+        let done = |index: usize| 0.5 + 0.5 * index as f64 / strips.len() as f64;
+        let share = Share { whole: progress, from: done(index), to: done(index + 1) };
+        strip.fill(&mut image, views, resampler, texels, &share)?;
+    }
+    if progress.advance(1.0).is_break() { Err(Stopped) } else { Ok(image) }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::ops::ControlFlow;
+
+    use super::*;
+    use crate::camera::{CameraModel, FieldOfView, FisheyeCamera, FulldomeCamera, PerspectiveCamera};
+    use crate::motion::{Moment, Ramp, Shutter, ShutterCurve, Turn};
+    use crate::sphere::Angle;
+    use crate::world::Light;
+
+    /// Returns a panorama of waves, with a sun of 1000 near the front if it `has_sun`.
+    fn world(has_sun: bool) -> (World, Light) {
+        let wave = |i: usize, j: usize| 0.5 + 0.4 * (i as f32 * 0.7).sin() * (j as f32 * 0.5).cos();
+        let texel = |i: usize, j: usize| {
+            let value = if has_sun && (i, j) == (515, 250) { 1000.0 } else { wave(i, j) };
+            Rgba::opaque(value, 0.5 * value, 1.0 - value.min(1.0))
+        };
+        World::from_panorama(Image::from_fn(1024, 512, texel)).expect("a world")
+    }
+
+    fn camera() -> View {
+        let wide = FieldOfView::Horizontal(Angle::from_degrees(25.0));
+        CameraModel::from(PerspectiveCamera::new(wide)).view(96, 72).expect("a view")
+    }
+
+    /// Returns a turn by these angles of yaw, pitch and roll in a frame, past the front.
+    fn turn(angles: [f64; 3]) -> Turn {
+        let angles = angles.map(|angle| Ramp { from: -angle / 2.0, to: angle / 2.0 });
+        Turn { angles, fov: None, times: [0.0, 1.0], easing: Default::default() }
+    }
+
+    fn exposure(view: impl Fn(f64) -> View, curve: ShutterCurve, moments: usize) -> Exposure {
+        let shutter = Shutter { curve, ..Shutter::centred(1.0) };
+        let moments: Vec<(Moment, View)> =
+            shutter.moments(0.5, moments).into_iter().map(|moment| (moment, view(moment.time))).collect();
+        Exposure::of_moments(&moments, &shutter, 0.5)
+    }
+
+    fn on(_: f64) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    fn swept(exposure: &Exposure, world: &World, light: &Light) -> Image<Rgba> {
+        exposure.swept((world, FilterSettings::DEFAULT), light.texels(), &on).expect("a picture")
+    }
+
+    /// Renders moments one by one.
+    fn summed(exposure: &Exposure, world: &World, light: &Light) -> Image<Rgba> {
+        let render = |view: &View| Ok::<_, ()>(Resampler::new(world, view).render(light.texels()));
+        exposure.render(render).expect("a picture")
+    }
+
+    /// Returns the part of all cells of all moments that rings make alone.
+    fn certain(exposure: &Exposure, world: &World, light: &Light) -> f64 {
+        let views = exposure.views();
+        let parts = parts(views, (world, FilterSettings::DEFAULT), 0..views.len());
+        let certain = |part: &Part| {
+            let rings = part.rings.as_ref()?;
+            let left = rings.render(light.texels(), CERTAIN, &on).expect("a picture").is_left;
+            let certain = left.iter().filter(|left| !**left).count() as f64 / left.len() as f64;
+            Some(certain * part.views.len() as f64 / views.len() as f64)
+        };
+        parts.iter().filter_map(certain).sum()
+    }
+
+    /// Returns the greatest difference of two pictures, and the brightest light.
+    fn worst(a: &Image<Rgba>, b: &Image<Rgba>) -> (f32, f32) {
+        let off = |a: &Rgba, b: &Rgba| (0..4).map(|c| (a.0[c] - b.0[c]).abs()).fold(0.0, f32::max);
+        let peak = b.pixels().iter().flat_map(|pixel| pixel.0).fold(1.0, f32::max);
+        (a.pixels().iter().zip(b.pixels()).map(|(a, b)| off(a, b)).fold(0.0, f32::max), peak)
+    }
+
+    fn sum(image: &Image<Rgba>, of: impl Fn(f64, f64) -> f64) -> f64 {
+        let width = image.width();
+        let part = |(at, pixel): (usize, &Rgba)| {
+            f64::from(pixel.0[0]) * of((at % width) as f64 + 0.5, (at / width) as f64 + 0.5)
+        };
+        image.pixels().iter().enumerate().map(part).sum()
+    }
+
+    #[test]
+    fn turns_about_one_axis_are_seen_as_by_a_thousand_moments() {
+        let cases = [
+            ([5.0, 0.0, 0.0], ShutterCurve::Box),
+            ([0.0, 4.0, 0.0], ShutterCurve::Trapezoid),
+            ([3.0, 1.0, 12.0], ShutterCurve::Cosine),
+            ([0.0, 0.0, 20.0], ShutterCurve::Box),
+        ];
+        for has_sun in [false, true] {
+            let (world, light) = world(has_sun);
+            for (angles, curve) in cases {
+                let view = |time: f64| camera().turned(turn(angles).pose(time).orientation);
+                let few = exposure(view, curve, 40);
+                let (found, expected) =
+                    (swept(&few, &world, &light), summed(&exposure(view, curve, 1024), &world, &light));
+                let ((worst, peak), certain) = (worst(&found, &expected), certain(&few, &world, &light));
+                assert!(worst < peak / 500.0, "{angles:?}, {curve:?}: {worst} of {peak}");
+                assert!(certain > 0.5, "{angles:?}: {certain} by rings");
+                let energy = sum(&found, |_, _| 1.0) / sum(&expected, |_, _| 1.0);
+                assert!((energy - 1.0).abs() < 1e-3, "{angles:?}: {energy}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_suns_streak_has_its_light_place_and_length() {
+        let texel = |i: usize, j: usize| {
+            if (i, j) == (515, 250) { Rgba::opaque(1000.0, 1000.0, 1000.0) } else { Rgba::BLACK }
+        };
+        let (world, light) = World::from_panorama(Image::from_fn(1024, 512, texel)).expect("a world");
+        let view = |time: f64| camera().turned(turn([4.0, 2.0, 6.0]).pose(time).orientation);
+        let found = swept(&exposure(view, ShutterCurve::Box, 60), &world, &light);
+        let expected = summed(&exposure(view, ShutterCurve::Box, 1024), &world, &light);
+        let energy = [&found, &expected].map(|image| sum(image, |_, _| 1.0));
+        assert!((energy[0] / energy[1] - 1.0).abs() < 0.01, "{energy:?}");
+        let moments = [&found, &expected].map(|image| {
+            let all = sum(image, |_, _| 1.0);
+            let [x, y] = [sum(image, |x, _| x) / all, sum(image, |_, y| y) / all];
+            [x, y, (sum(image, |i, j| (i - x).powi(2) + (j - y).powi(2)) / all).sqrt()]
+        });
+        let [[x, y, length], [right_x, right_y, right]] = moments;
+        assert!((x - right_x).hypot(y - right_y) < 0.05 && (length / right - 1.0).abs() < 0.01, "{moments:?}");
+    }
+
+    #[test]
+    fn targets_and_sources_of_all_kinds_are_swept() {
+        let (sky, sky_light) = world(false);
+        let lens = CameraModel::from(FisheyeCamera::default()).view(400, 400).expect("a lens");
+        let fisheye = World::new([("lens".to_owned(), lens)]).expect("a world");
+        let waves = |d: crate::sphere::Direction| {
+            let wave = |x: f64| (0.5 + 0.4 * (40.0 * x).sin()) as f32;
+            Rgba::opaque(wave(d.vector().x), wave(d.vector().y), 0.5)
+        };
+        let fisheye_light = Light::by_direction(&fisheye, waves);
+        let dome = CameraModel::from(FulldomeCamera::default()).view(64, 64).expect("a dome");
+        let panorama = crate::world::panorama(96, 48);
+        let wide = CameraModel::from(PerspectiveCamera::new(FieldOfView::Horizontal(Angle::from_degrees(110.0))));
+        let wide = wide.view(96, 48).expect("a view");
+        for (name, target, world, light, angles) in [
+            ("dome", &dome, &sky, &sky_light, [25.0, 0.0, 0.0]),
+            ("panorama", &panorama, &sky, &sky_light, [30.0, 0.0, 0.0]),
+            ("lens", &camera(), &fisheye, &fisheye_light, [5.0, 2.0, 0.0]),
+            ("beyond the lens", &wide, &fisheye, &fisheye_light, [2.0, 1.0, 30.0]),
+        ] {
+            let view = |time: f64| target.turned(turn(angles).pose(time).orientation);
+            let found = swept(&exposure(view, ShutterCurve::Box, 64), world, light);
+            let expected = summed(&exposure(view, ShutterCurve::Box, 128), world, light);
+            let (worst, peak) = worst(&found, &expected);
+            assert!(worst < peak / 500.0, "{name}: {worst}");
+        }
+    }
+
+    #[test]
+    fn what_does_not_turn_about_one_axis_is_seen_moment_by_moment() {
+        let (world, light) = world(false);
+        let zoomed = |time: f64| {
+            let wide = FieldOfView::Horizontal(Angle::from_degrees(25.0 + 2.0 * time));
+            CameraModel::from(PerspectiveCamera::new(wide)).view(96, 72).expect("a view")
+        };
+        let few = exposure(zoomed, ShutterCurve::Box, 30);
+        assert_eq!(certain(&few, &world, &light), 0.0);
+        let render = |view: &View| Ok::<_, ()>(Resampler::new(&world, view).render(light.texels()));
+        let (worst, _) = worst(&swept(&few, &world, &light), &few.render(render).expect("a picture"));
+        assert!(worst < 1e-5, "{worst}");
+    }
+
+    #[test]
+    fn a_turn_that_changes_its_axis_is_divided_there() {
+        let (world, light) = world(false);
+        let view = |time: f64| {
+            let before = turn([8.0, 0.0, 0.0]).pose(time.min(0.5)).orientation;
+            camera().turned(turn([0.0, 6.0, 0.0]).pose(time.max(0.5)).orientation.within(before))
+        };
+        let few = exposure(view, ShutterCurve::Box, 64);
+        let parts = parts(few.views(), (&world, FilterSettings::DEFAULT), 0..64);
+        assert!(parts.iter().all(|part| part.rings.is_some()) && parts.iter().any(|part| part.views.end == 32));
+        let (worst, _) =
+            worst(&swept(&few, &world, &light), &summed(&exposure(view, ShutterCurve::Box, 1024), &world, &light));
+        assert!(worst < 1.0 / 500.0, "{worst}");
+    }
+
+    #[test]
+    fn ellipses_at_once_are_those_of_single_pixels() {
+        let (world, light) = world(false);
+        let view = |time: f64| camera().turned(turn([4.0, 1.0, 5.0]).pose(time).orientation);
+        let few = exposure(view, ShutterCurve::Box, Exposure::FEW);
+        let found = few.ellipses(&world, light.texels(), &on).expect("a picture");
+        let single = few.ellipse(&*Exposure::FILTER.of_texels(&world, light.texels()));
+        let (worst, _) = worst(&found, &single);
+        assert!(worst < 0.02, "{worst}");
+    }
+}
