@@ -10,8 +10,8 @@ use crate::sphere::Direction;
 
 /// Exposure of a frame: the target's view at each of some moments while the shutter is open.
 ///
-/// There are as many moments as the fastest pixel needs to go by no more than half a pixel from one to the next, or by
-/// half a texel where those are larger: then the pixels' kernels make an even streak. Where nothing moves there is one.
+/// There are as many moments as the fastest pixel needs to go by no more than a third of a pixel from one to the next, or by
+/// a 24th of a texel where that is larger: then the pixels' kernels make an even streak. Where nothing moves there is one.
 #[derive(Clone, Debug)]
 pub struct Exposure {
     views: Vec<(View, f32)>,
@@ -19,14 +19,17 @@ pub struct Exposure {
     spread: f64,
 }
 
-/// Length of a pixel's way from one moment to the next, in pixels. A kernel is a Gaussian of half a pixel's standard
-/// deviation or so; copies of it half a pixel apart ripple by 2 exp(−2π²), which is 5·10⁻⁹.
-const STEP: f64 = 0.5;
+/// Length of a pixel's way from one moment to the next, in pixels. Kernels half a pixel apart make an even streak, too; but clamps to the
+/// texels nearby have edges, which thirds show to 1/500 of white beside 1,024 moments where halves are off by 1/300.
+const STEP: f64 = 1.0 / 3.0;
+
+/// Least part of a texel that counts as a pixel: magnified texels have such edges, too.
+const TEXEL: f64 = 0.125;
 
 /// Part of a pixel below which nothing has moved.
 const STILL: f64 = 1e-3;
 
-/// Greatest number of moments: a streak of 512 pixels. Beyond it, steps are longer.
+/// Greatest number of moments: a streak of 341 pixels. Beyond it, steps are longer.
 const MOST_MOMENTS: usize = 1024;
 
 /// Pixels each way whose ways are measured.
@@ -182,7 +185,7 @@ fn way(views: &[View], point: PixelPoint, texel: f64) -> Option<f64> {
         // The minor axis, from the area and the major one, which is at most the root of the sum of squares.
         let major = (jacobian.dx.length_squared() + jacobian.dy.length_squared()).sqrt();
         let minor = if major > 0.0 { jacobian.solid_angle() / major } else { 0.0 };
-        minor.max(0.5 * texel)
+        minor.max(TEXEL * texel)
     };
     let step = |pair: &[Footprint]| pair[0].direction.angle_to(pair[1].direction).radians() / unit(&pair[0]);
     Some(footprints.windows(2).map(step).sum())

@@ -13,16 +13,16 @@ use crate::render::{Progress, Resampler, Share, Stopped};
 use crate::world::World;
 
 /// Least number of moments for which rings cost less than the moments' pictures.
-const LEAST: usize = 12;
+const LEAST: usize = 16;
 
 /// Deviations from a turn about one axis at which rings make the picture that moments make.
-const TURN: Tolerance = Tolerance { place: 0.03, size: 0.01 };
+const TURN: Tolerance = Tolerance { place: 0.01, size: 0.01 };
 
 /// Deviations at which ellipses are told by their rings: they are not exact either.
 const ABOUT: Tolerance = Tolerance { place: 0.1, size: 0.1 };
 
 /// Greatest uncertainty of a pixel, of white or of its own light where that is brighter.
-const CERTAIN: f32 = 1.0 / 1000.0;
+const CERTAIN: f32 = 1.0 / 2000.0;
 
 impl Exposure {
     /// Renders the world through the open shutter: each pixel is the mean of what it sees on its way. What turns about one axis is
@@ -70,7 +70,7 @@ impl Exposure {
     /// As [`Resampler::render`].
     pub fn ellipses(&self, world: &World, texels: &[Rgba], progress: &dyn Progress) -> Result<Image<Rgba>, Stopped> {
         let prepared = Self::FILTER.of_texels(world, texels);
-        let rings = Turning::of(self.views(), ABOUT).and_then(|turning| {
+        let rings = Turning::of(self.views(), world.texel_pitch(), ABOUT).and_then(|turning| {
             let profile = self.gaussian(&turning.angles);
             let Ewa { kernel, anti_ringing } = Self::FILTER;
             let filter = FilterSettings { kind: FilterKind::Ewa, kernel, anti_ringing };
@@ -109,7 +109,7 @@ fn parts<'a>(views: &'a [(View, f32)], resampler: (&'a World, FilterSettings), r
         return vec![Part { views: range, rings: None }];
     }
     let some = &views[range.clone()];
-    let rings = Turning::of(some, TURN).and_then(|turning| {
+    let rings = Turning::of(some, resampler.0.texel_pitch(), TURN).and_then(|turning| {
         let weights = some.iter().map(|(_, weight)| f64::from(*weight));
         let profile = Profile::Moments(turning.angles.iter().copied().zip(weights).collect());
         Rings::new(some, &turning, &profile, resampler)
@@ -175,16 +175,16 @@ mod tests {
 
     /// Returns a panorama of waves, with a sun of 1000 near the front if it `has_sun`.
     fn world(has_sun: bool) -> (World, Light) {
-        let wave = |i: usize, j: usize| 0.5 + 0.4 * (i as f32 * 0.7).sin() * (j as f32 * 0.5).cos();
+        let wave = |i: usize, j: usize| 0.5 + 0.4 * (i as f32 * 0.25).sin() * (j as f32 * 0.2).cos();
         let texel = |i: usize, j: usize| {
-            let value = if has_sun && (i, j) == (515, 250) { 1000.0 } else { wave(i, j) };
+            let value = if has_sun && (i, j) == (1030, 500) { 1000.0 } else { wave(i, j) };
             Rgba::opaque(value, 0.5 * value, 1.0 - value.min(1.0))
         };
-        World::from_panorama(Image::from_fn(1024, 512, texel)).expect("a world")
+        World::from_panorama(Image::from_fn(2048, 1024, texel)).expect("a world")
     }
 
     fn camera() -> View {
-        let wide = FieldOfView::Horizontal(Angle::from_degrees(25.0));
+        let wide = FieldOfView::Horizontal(Angle::from_degrees(12.5));
         CameraModel::from(PerspectiveCamera::new(wide)).view(96, 72).expect("a view")
     }
 
@@ -246,16 +246,16 @@ mod tests {
     #[test]
     fn turns_about_one_axis_are_seen_as_by_a_thousand_moments() {
         let cases = [
-            ([5.0, 0.0, 0.0], ShutterCurve::Box),
-            ([0.0, 4.0, 0.0], ShutterCurve::Trapezoid),
-            ([3.0, 1.0, 12.0], ShutterCurve::Cosine),
+            ([2.5, 0.0, 0.0], ShutterCurve::Box),
+            ([0.0, 2.0, 0.0], ShutterCurve::Trapezoid),
+            ([1.5, 0.5, 3.0], ShutterCurve::Cosine),
             ([0.0, 0.0, 20.0], ShutterCurve::Box),
         ];
         for has_sun in [false, true] {
             let (world, light) = world(has_sun);
             for (angles, curve) in cases {
                 let view = |time: f64| camera().turned(turn(angles).pose(time).orientation);
-                let few = exposure(view, curve, 40);
+                let few = exposure(view, curve, 64);
                 let (found, expected) =
                     (swept(&few, &world, &light), summed(&exposure(view, curve, 1024), &world, &light));
                 let ((worst, peak), certain) = (worst(&found, &expected), certain(&few, &world, &light));
@@ -270,10 +270,10 @@ mod tests {
     #[test]
     fn a_suns_streak_has_its_light_place_and_length() {
         let texel = |i: usize, j: usize| {
-            if (i, j) == (515, 250) { Rgba::opaque(1000.0, 1000.0, 1000.0) } else { Rgba::BLACK }
+            if (i, j) == (1030, 500) { Rgba::opaque(1000.0, 1000.0, 1000.0) } else { Rgba::BLACK }
         };
-        let (world, light) = World::from_panorama(Image::from_fn(1024, 512, texel)).expect("a world");
-        let view = |time: f64| camera().turned(turn([4.0, 2.0, 6.0]).pose(time).orientation);
+        let (world, light) = World::from_panorama(Image::from_fn(2048, 1024, texel)).expect("a world");
+        let view = |time: f64| camera().turned(turn([2.0, 1.0, 6.0]).pose(time).orientation);
         let found = swept(&exposure(view, ShutterCurve::Box, 60), &world, &light);
         let expected = summed(&exposure(view, ShutterCurve::Box, 1024), &world, &light);
         let energy = [&found, &expected].map(|image| sum(image, |_, _| 1.0));
@@ -289,14 +289,14 @@ mod tests {
 
     #[test]
     fn targets_and_sources_of_all_kinds_are_swept() {
-        let (sky, sky_light) = world(false);
         let lens = CameraModel::from(FisheyeCamera::default()).view(400, 400).expect("a lens");
         let fisheye = World::new([("lens".to_owned(), lens)]).expect("a world");
         let waves = |d: crate::sphere::Direction| {
             let wave = |x: f64| (0.5 + 0.4 * (40.0 * x).sin()) as f32;
             Rgba::opaque(wave(d.vector().x), wave(d.vector().y), 0.5)
         };
-        let fisheye_light = Light::by_direction(&fisheye, waves);
+        let sky = World::new([("sky".to_owned(), crate::world::panorama(512, 256))]).expect("a world");
+        let (fisheye_light, sky_light) = (Light::by_direction(&fisheye, waves), Light::by_direction(&sky, waves));
         let dome = CameraModel::from(FulldomeCamera::default()).view(64, 64).expect("a dome");
         let panorama = crate::world::panorama(96, 48);
         let wide = CameraModel::from(PerspectiveCamera::new(FieldOfView::Horizontal(Angle::from_degrees(110.0))));
@@ -309,7 +309,7 @@ mod tests {
         ] {
             let view = |time: f64| target.turned(turn(angles).pose(time).orientation);
             let found = swept(&exposure(view, ShutterCurve::Box, 64), world, light);
-            let expected = summed(&exposure(view, ShutterCurve::Box, 128), world, light);
+            let expected = summed(&exposure(view, ShutterCurve::Box, 256), world, light);
             let (worst, peak) = worst(&found, &expected);
             assert!(worst < peak / 500.0, "{name}: {worst}");
         }
@@ -319,7 +319,7 @@ mod tests {
     fn what_does_not_turn_about_one_axis_is_seen_moment_by_moment() {
         let (world, light) = world(false);
         let zoomed = |time: f64| {
-            let wide = FieldOfView::Horizontal(Angle::from_degrees(25.0 + 2.0 * time));
+            let wide = FieldOfView::Horizontal(Angle::from_degrees(12.5 + time));
             CameraModel::from(PerspectiveCamera::new(wide)).view(96, 72).expect("a view")
         };
         let few = exposure(zoomed, ShutterCurve::Box, 30);
@@ -333,8 +333,8 @@ mod tests {
     fn a_turn_that_changes_its_axis_is_divided_there() {
         let (world, light) = world(false);
         let view = |time: f64| {
-            let before = turn([8.0, 0.0, 0.0]).pose(time.min(0.5)).orientation;
-            camera().turned(turn([0.0, 6.0, 0.0]).pose(time.max(0.5)).orientation.within(before))
+            let before = turn([4.0, 0.0, 0.0]).pose(time.min(0.5)).orientation;
+            camera().turned(turn([0.0, 3.0, 0.0]).pose(time.max(0.5)).orientation.within(before))
         };
         let few = exposure(view, ShutterCurve::Box, 64);
         let parts = parts(few.views(), (&world, FilterSettings::DEFAULT), 0..64);
@@ -347,7 +347,7 @@ mod tests {
     #[test]
     fn ellipses_at_once_are_those_of_single_pixels() {
         let (world, light) = world(false);
-        let view = |time: f64| camera().turned(turn([4.0, 1.0, 5.0]).pose(time).orientation);
+        let view = |time: f64| camera().turned(turn([2.0, 0.5, 5.0]).pose(time).orientation);
         let few = exposure(view, ShutterCurve::Box, Exposure::FEW);
         let found = few.ellipses(&world, light.texels(), &on).expect("a picture");
         let single = few.ellipse(&*Exposure::FILTER.of_texels(&world, light.texels()));

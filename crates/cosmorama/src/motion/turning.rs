@@ -17,7 +17,7 @@ pub(super) struct Turning {
 /// Differences from a turn about one axis that are allowed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tolerance {
-    /// Distance of a pixel from its way about the axis, in pixels.
+    /// Distance of a pixel from its way about the axis, in pixels, or in texels where those are larger.
     pub(super) place: f64,
     /// Relative difference of a pixel's size, and of its shape, from those of the pixel that the middle view has there.
     pub(super) size: f64,
@@ -27,8 +27,9 @@ pub(super) struct Tolerance {
 const LATTICE: usize = 17;
 
 impl Turning {
-    /// Finds the axis of some views; `None` where they turn about several, change otherwise, or stand still.
-    pub(super) fn of(views: &[(View, f32)], tolerance: Tolerance) -> Option<Self> {
+    /// Finds the axis of some views; `None` where they turn about several, change otherwise, or stand still. `texel` is the
+    /// width of the world's finest texels in radians.
+    pub(super) fn of(views: &[(View, f32)], texel: f64, tolerance: Tolerance) -> Option<Self> {
         let middle = views.len() / 2;
         let (lens, ends) = (&views[middle].0, [&views[0].0, &views[views.len() - 1].0]);
         let is_alike =
@@ -46,7 +47,7 @@ impl Turning {
             .map(|pixel| minor(&pixel))
             .filter(|minor| *minor > 0.0)
             .fold(f64::MAX, f64::min);
-        let is_near = off < tolerance.place * finest;
+        let is_near = off < tolerance.place * finest.max(texel);
         let is_even =
             || ends.iter().all(|view| lattice(view).all(|point| is_of_size(lens, view, point, tolerance.size)));
         (is_near && is_even()).then_some(Self { axis, middle, angles })

@@ -7,7 +7,7 @@ use crate::sphere::{Direction, Orientation};
 pub(super) const SIDE: usize = 8;
 
 /// Greatest error of an interpolated place, in samples.
-const ERROR: f64 = 1.0 / 64.0;
+const ERROR: f64 = 1.0 / 1024.0;
 
 /// Frame about an axis, with a density of samples: a place is a longitude and a latitude, counted in samples to the right and
 /// down from the front.
@@ -29,9 +29,9 @@ pub(super) struct Cells {
 /// Places of the pixels of a cell.
 #[derive(Clone, Debug)]
 pub(super) enum Cell {
-    /// Interpolated between those of the first pixels of this cell, the next, the one below, and that after it. All pixels are
-    /// whole.
-    Even([[f64; 2]; 4]),
+    /// Quadratic, through those of the first pixels of this cell and its neighbours to the right and below, and those half way
+    /// between them, row by row. All pixels are whole.
+    Even([[[f64; 2]; 3]; 3]),
     /// Computed one by one, row by row; `None` for pixels that show nothing.
     Single(Box<[Option<Pixel>; SIDE * SIDE]>),
 }
@@ -89,25 +89,30 @@ impl Cell {
             }
         }
         let place = |x: f64, y: f64| Some(frame.place(view.direction(point(x, y))?));
-        let corners = [place(0.0, 0.0)?, place(1.0, 0.0)?, place(0.0, 1.0)?, place(1.0, 1.0)?];
-        for (x, y) in [(0.5, 0.0), (0.0, 0.5), (0.5, 0.5), (1.0, 0.5), (0.5, 1.0)] {
-            let (exact, near) = (place(x, y)?, between(&corners, x, y));
+        let mut knots = [[[0.0; 2]; 3]; 3];
+        for (k, knot) in knots.as_flattened_mut().iter_mut().enumerate() {
+            *knot = place((k % 3) as f64 / 2.0, (k / 3) as f64 / 2.0)?;
+        }
+        for (x, y) in [(0.2, 0.2), (0.8, 0.2), (0.2, 0.8), (0.8, 0.8)] {
+            let (exact, near) = (place(x, y)?, quadratic(&knots.map(|row| quadratic(&row, x)), y));
             if (exact[0] - near[0]).abs() > ERROR || (exact[1] - near[1]).abs() > ERROR {
                 return None;
             }
         }
-        Some(Self::Even(corners))
+        Some(Self::Even(knots))
     }
 
-    /// Returns a pixel of the cell; `None` if it shows nothing.
+    /// Returns the pixels of a row of the cell; `None` for those that show nothing.
     #[inline(always)]
-    pub(super) fn pixel(&self, column: usize, row: usize) -> Option<Pixel> {
+    pub(super) fn row(&self, row: usize) -> [Option<Pixel>; SIDE] {
         match self {
-            Self::Even(corners) => {
-                let place = between(corners, column as f64 / SIDE as f64, row as f64 / SIDE as f64);
-                Some(Pixel { place, coverage: 1.0 })
+            Self::Even(knots) => {
+                let y = row as f64 / SIDE as f64;
+                let across = [0, 1, 2].map(|column| quadratic(&[0, 1, 2].map(|row| knots[row][column]), y));
+                let place = |column: usize| quadratic(&across, column as f64 / SIDE as f64);
+                std::array::from_fn(|column| Some(Pixel { place: place(column), coverage: 1.0 }))
             }
-            Self::Single(pixels) => pixels[row * SIDE + column],
+            Self::Single(pixels) => std::array::from_fn(|column| pixels[row * SIDE + column]),
         }
     }
 
@@ -115,20 +120,25 @@ impl Cell {
     pub(super) fn bounds(&self) -> Option<[[f64; 2]; 2]> {
         let of = |places: &mut dyn Iterator<Item = [f64; 2]>| places.map(|place| [place; 2]).reduce(joined);
         match self {
-            Self::Even(corners) => of(&mut corners.iter().copied()),
+            // Between its points, a quadratic goes beyond them by an eighth of its second difference at most, in each direction.
+            Self::Even(knots) => {
+                let bend =
+                    |[a, b, c]: [[f64; 2]; 3]| [0, 1].map(|axis| (a[axis] - 2.0 * b[axis] + c[axis]).abs() / 4.0);
+                let bends = [0, 1, 2].map(|k| [bend(knots[k]), bend(knots.map(|row| row[k]))]);
+                let most = [0, 1].map(|axis| bends.as_flattened().iter().map(|bend| bend[axis]).fold(0.0, f64::max));
+                let wide = |&[x, y]: &[f64; 2]| [[x - most[0], y - most[1]], [x + most[0], y + most[1]]];
+                knots.as_flattened().iter().map(wide).reduce(joined)
+            }
             Self::Single(pixels) => of(&mut pixels.iter().flatten().map(|pixel| pixel.place)),
         }
     }
 }
 
-/// Interpolates between the corners of a cell.
+/// Returns the quadratic through three places, from the first (0) by the middle one to the last (1).
 #[inline(always)]
-fn between(corners: &[[f64; 2]; 4], x: f64, y: f64) -> [f64; 2] {
-    [0, 1].map(|axis| {
-        let [a, b, c, d] = corners.map(|corner| corner[axis]);
-        let (above, below) = (a + (b - a) * x, c + (d - c) * x);
-        above + (below - above) * y
-    })
+fn quadratic(places: &[[f64; 2]; 3], t: f64) -> [f64; 2] {
+    let weights = [(1.0 - t) * (1.0 - 2.0 * t), 4.0 * t * (1.0 - t), t * (2.0 * t - 1.0)];
+    [0, 1].map(|axis| weights.iter().zip(places).map(|(weight, place)| weight * place[axis]).sum())
 }
 
 fn joined([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> [[f64; 2]; 2] {

@@ -23,11 +23,7 @@ use crate::render::{Progress, Resampler, Sampling, Stopped, Wanted};
 use crate::sphere::{Direction, Orientation};
 use crate::world::World;
 use cells::{Cell, Cells, Frame, SIDE};
-use taps::{BEFORE, REACH, Taps, blur, four, six};
-
-/// Samples along a ring, and across rings, for the length of the kernel's unit. Between rings light is interpolated; along them
-/// it is summed, which asks for less.
-const DENSITY: [f64; 2] = [1.25, 1.75];
+use taps::{BEFORE, Interpolation, REACH, SHORT, Taps, blur};
 
 /// Part of the view's points for which this density is enough; elsewhere pixels are finer.
 const MOST: f64 = 0.75;
@@ -35,7 +31,7 @@ const MOST: f64 = 0.75;
 /// Light of a shutter by the angle of the turn.
 #[derive(Clone, Debug)]
 pub(super) enum Profile {
-    /// At some angles, each with a weight.
+    /// Over a turn in moments of equal length, each given by the angle at its middle, and a weight.
     Moments(Vec<(f64, f64)>),
     /// A Gaussian of this mean and standard deviation.
     Gaussian { mean: f64, deviation: f64 },
@@ -45,13 +41,22 @@ pub(super) enum Profile {
 const TAIL: f64 = 4.0;
 
 impl Profile {
+    /// Returns how many samples there are along a ring, and across rings, for the length of the kernel's unit. Along rings light is
+    /// summed, which asks for less than interpolation across them. Ellipses are no more than near to what is seen.
+    fn density(&self) -> [f64; 2] {
+        match self {
+            Self::Moments(_) => [1.25, 1.5],
+            Self::Gaussian { .. } => [1.0, 1.25],
+        }
+    }
+
     /// Returns the taps for rows of so many samples per radian.
     fn taps(&self, density: f64) -> Taps {
         // What is seen under a positive angle about the axis lies to the left.
         match self {
             Self::Moments(moments) => {
-                let offsets: Vec<_> = moments.iter().map(|(angle, weight)| (-angle * density, *weight)).collect();
-                Taps::at(&offsets)
+                let offset = |(angle, weight): (f64, f64)| (-angle * density, weight);
+                Taps::at(&evenly(moments).map(offset).collect::<Vec<_>>())
             }
             Self::Gaussian { mean, deviation } => {
                 // Half a sample, or less than the Gaussian itself, from one to the next.
@@ -66,6 +71,31 @@ impl Profile {
     }
 }
 
+/// Parts into which [`evenly`] divides a moment.
+const PARTS: usize = 4;
+
+/// Divides moments in time, each of which stands for the turn from half way after the one before to half way to the next.
+fn evenly(moments: &[(f64, f64)]) -> impl Iterator<Item = (f64, f64)> + '_ {
+    let angle = |k: usize| moments[k].0;
+    let last = moments.len() - 1;
+    (0..moments.len()).flat_map(move |k| {
+        let steps = [angle(k) - angle(k.saturating_sub(1)), angle((k + 1).min(last)) - angle(k)];
+        // The first moment is as long before its middle as after it, and so is the last.
+        let steps = if k == 0 {
+            [steps[1]; 2]
+        } else if k == last {
+            [steps[0]; 2]
+        } else {
+            steps
+        };
+        let part = move |part: usize| {
+            let t = (part as f64 + 0.5) / PARTS as f64 - 0.5;
+            (angle(k) + t * if t < 0.0 { steps[0] } else { steps[1] }, moments[k].1 / PARTS as f64)
+        };
+        (0..PARTS).map(part)
+    })
+}
+
 /// Light along the rings of a turning view.
 pub(super) struct Rings<'a> {
     /// View whose pixels are sampled.
@@ -78,6 +108,7 @@ pub(super) struct Rings<'a> {
     first: [i64; 2],
     is_whole_turn: bool,
     taps: Taps,
+    interpolation: Interpolation,
     wanted: Wanted,
 }
 
@@ -98,10 +129,10 @@ impl<'a> Rings<'a> {
         resampler: (&'a World, FilterSettings),
     ) -> Option<Self> {
         let lens = &views[turning.middle].0;
-        if !is_sampled(&resampler.1) {
+        if !is_sampled(lens, resampler) {
             return None;
         }
-        let frame = frame(lens, turning.axis, resampler)?;
+        let frame = frame(lens, turning.axis, profile.density(), resampler)?;
         let taps = profile.taps(frame.density[0]);
         let cells = Cells::of(lens, &frame);
         let [least, most] = cells.bounds()?;
@@ -133,6 +164,7 @@ impl<'a> Rings<'a> {
             first: [left, top],
             is_whole_turn,
             taps,
+            interpolation: Interpolation::new(),
             wanted: Wanted::new([0, 0], |_| false),
         };
         rings.wanted = rings.needed();
@@ -225,8 +257,8 @@ impl<'a> Rings<'a> {
         for (row, pixels) in pixels.chunks_mut(width).enumerate() {
             let cells = cells.iter().zip(is_left.iter_mut()).zip(pixels.chunks_mut(SIDE));
             for ((cell, is_left), pixels) in cells.filter(|((_, is_left), _)| !**is_left) {
-                for (column, into) in pixels.iter_mut().enumerate() {
-                    let Some(pixel) = cell.pixel(column, row) else { continue };
+                for (into, pixel) in pixels.iter_mut().zip(cell.row(row)) {
+                    let Some(pixel) = pixel else { continue };
                     match self.at(panorama, pixel.place, tolerance) {
                         Some(light) => *into = light * pixel.coverage,
                         None => *is_left = true,
@@ -250,21 +282,20 @@ impl<'a> Rings<'a> {
         if !is_inside && !self.is_whole_turn {
             return None;
         }
-        // Rows are blurred: along them four samples are enough.
-        let along = four(place[0] - floor[0]).map(|weight| weight as f32);
+        let along = self.interpolation.at(place[0] - floor[0]).long;
+        let across = self.interpolation.at(place[1] - floor[1]);
         let mut rings = [[0.0f32; 4]; REACH];
         for (k, ring) in rings.iter_mut().enumerate() {
             let row = panorama.row(y as usize + k);
-            let samples: [Rgba; 4] = if is_inside {
-                *row[x as usize + 1..].first_chunk()?
+            let samples: [Rgba; REACH] = if is_inside {
+                *row[x as usize..].first_chunk()?
             } else {
-                std::array::from_fn(|at| row[(x + 1 + at as i64).rem_euclid(width as i64) as usize])
+                std::array::from_fn(|at| row[(x + at as i64).rem_euclid(width as i64) as usize])
             };
             for (weight, sample) in along.iter().zip(&samples) {
                 ring.iter_mut().zip(sample.0).for_each(|(sum, light)| *sum += weight * light);
             }
         }
-        let t = place[1] - floor[1];
         let sum = |weights: &[f32], rings: &[[f32; 4]]| {
             let mut sum = [0.0f32; 4];
             for (weight, ring) in weights.iter().zip(rings) {
@@ -272,8 +303,8 @@ impl<'a> Rings<'a> {
             }
             sum
         };
-        let light = sum(&six(t).map(|weight| weight as f32), &rings);
-        let rough = sum(&four(t).map(|weight| weight as f32), &rings[1..]);
+        let light = sum(&across.long, &rings);
+        let rough = sum(&across.short, &rings[(REACH - SHORT) / 2..]);
         let is_certain = light.iter().zip(&rough).all(|(a, b)| (a - b).abs() <= tolerance * a.abs().max(1.0));
         is_certain.then_some(Rgba(light))
     }
@@ -291,36 +322,44 @@ fn with_neighbours(is_marked: &[bool], across: usize) -> Vec<bool> {
     (0..is_marked.len()).map(is_near).collect()
 }
 
+/// Part of a texel's width below which a pixel shows each jump of the clamp to the texels nearby.
+const CLAMPED: f64 = 0.5;
+
 /// Returns whether a filter's pixels change smoothly from place to place, so that they can be interpolated.
-fn is_sampled(filter: &FilterSettings) -> bool {
+fn is_sampled(lens: &View, (world, filter): (&World, FilterSettings)) -> bool {
     let is_smooth = |section: CrossSection| !matches!(section, CrossSection::Box | CrossSection::Tent);
-    filter.kind == FilterKind::Ewa && is_smooth(filter.kernel.fine) && is_smooth(filter.kernel.coarse)
+    let pixel = lens.texel(PixelPoint::new(lens.width() as f64 / 2.0, lens.height() as f64 / 2.0));
+    let side = pixel.map_or(0.0, |pixel| pixel.solid_angle().sqrt());
+    let jumps = filter.anti_ringing && side < CLAMPED * world.texel_pitch();
+    filter.kind == FilterKind::Ewa && is_smooth(filter.kernel.fine) && is_smooth(filter.kernel.coarse) && !jumps
 }
 
 /// Returns the frame about an axis with the density that a view's finest pixels need.
-fn frame(lens: &View, axis: DVec3, resampler: (&World, FilterSettings)) -> Option<Frame> {
+fn frame(lens: &View, axis: DVec3, density: [f64; 2], resampler: (&World, FilterSettings)) -> Option<Frame> {
     let middle = PixelPoint::new(lens.width() as f64 / 2.0, lens.height() as f64 / 2.0);
     let towards = lens.direction(middle).map_or(DVec3::ZERO, Direction::vector);
-    let front = (towards - axis * axis.dot(towards)).try_normalize().unwrap_or_else(|| axis.any_orthonormal_vector());
+    let across = towards - axis * axis.dot(towards);
+    // A view along the axis has no front of its own: what is left of it there is rounding.
+    let front = if across.length() > 1e-6 { across.normalize() } else { axis.any_orthonormal_vector() };
     let [right, up, front] = [front.cross(axis), axis, front].map(Direction::from_unit);
     let orientation = Orientation::from_axes(right, up, front);
-    let needed: Vec<[f64; 2]> = lattice(lens).filter_map(|point| density(lens, point, axis, resampler)).collect();
-    let [along, across] = [0, 1].map(|way| usual(needed.iter().map(|needed| needed[way])));
+    let units: Vec<[f64; 2]> = lattice(lens).filter_map(|point| units(lens, point, axis, resampler)).collect();
+    let [along, across] = [0, 1].map(|way| density[way] * usual(units.iter().map(|units| units[way])));
     let is_possible = along.is_finite() && across.is_finite() && across > 0.0;
     // A whole number of columns all the way round.
     let along = (TAU * along).ceil().max(1.0) / TAU;
     is_possible.then_some(Frame { orientation, density: [along, across] })
 }
 
-/// Returns the density that is enough for most points. Where more is needed, interpolation tells that it is not certain.
-fn usual(needed: impl Iterator<Item = f64>) -> f64 {
-    let mut needed: Vec<f64> = needed.collect();
-    needed.sort_by(f64::total_cmp);
-    needed.get((needed.len().saturating_sub(1) as f64 * MOST) as usize).copied().unwrap_or(0.0)
+/// Returns the units that are enough for most points. Where more are needed, interpolation tells that it is not certain.
+fn usual(units: impl Iterator<Item = f64>) -> f64 {
+    let mut units: Vec<f64> = units.collect();
+    units.sort_by(f64::total_cmp);
+    units.get((units.len().saturating_sub(1) as f64 * MOST) as usize).copied().unwrap_or(0.0)
 }
 
-/// Returns how many samples per radian of longitude and of latitude a point of the view needs.
-fn density(lens: &View, point: PixelPoint, axis: DVec3, (world, filter): (&World, FilterSettings)) -> Option<[f64; 2]> {
+/// Returns how many of the kernel's units there are in a radian of longitude and of latitude, at a point of the view.
+fn units(lens: &View, point: PixelPoint, axis: DVec3, (world, filter): (&World, FilterSettings)) -> Option<[f64; 2]> {
     let (seen, pixel) = (lens.direction(point)?, lens.texel(point)?);
     let direction = seen.vector();
     let along = direction.cross(axis);
@@ -332,5 +371,5 @@ fn density(lens: &View, point: PixelPoint, axis: DVec3, (world, filter): (&World
         let texels = texel.and_then(|texel| texel.pseudo_inverse(tangent)).map_or(f64::INFINITY, DVec2::length);
         (filter.kernel.scale / pixels).max(filter.kernel.floor / texels)
     };
-    Some([DENSITY[0] * cosine / unit(along), DENSITY[1] / unit(along.cross(direction))])
+    Some([cosine / unit(along), 1.0 / unit(along.cross(direction))])
 }
