@@ -87,18 +87,21 @@ fn append(above: &mut Samples, below: Samples, all: usize) {
 #[cfg(test)]
 mod tests {
     use cosmorama::raster::FramePool;
+    use cosmorama_io::WriteOptions;
 
     use super::*;
     use crate::engine::{FrameFile, Levels, Spent, ViewImage, Which, WriterOptions};
-    use crate::{Conversion, Existing, Quiet};
+    use crate::settings::{Conversion, Existing};
 
     /// Compares a picture of three strips, whose last is not whole, with the picture that is made at once.
     #[test]
     fn strips_are_the_picture() {
         let folder = tempfile::tempdir().unwrap();
         let path = |name: &str| folder.path().join(name).display().to_string();
-        let sky = Conversion::new("builtin:demo", path("sky.exr")).to("equirect".parse().unwrap());
-        sky.size("128".parse().unwrap()).check().result.unwrap().run(&mut Quiet).unwrap();
+        let wave = |sample: usize| (sample * 37 % 251) as f32 / 251.0;
+        let samples = Samples::Float((0..128 * 64 * 3).map(wave).collect());
+        let sky = EncodedImage::new(128, 64, Channels::Rgb, Depth::Float, samples).unwrap();
+        cosmorama_io::write(path("sky.exr"), &sky, &WriteOptions::default()).unwrap();
         let progress = &|_: f64| ControlFlow::Continue(());
         for (to, output) in [
             ("fulldome:tilt=10", "dome.png"),
@@ -107,6 +110,7 @@ mod tests {
             ("omnimax", "frame.hdr"),
         ] {
             let conversion = Conversion::new(path("sky.exr"), path(output)).to(to.parse().unwrap());
+            let conversion = conversion.from("equirect".parse().unwrap());
             let conversion = conversion.size("300x1100".parse().unwrap()).existing(Existing::Replace);
             let checked = conversion.check().result.unwrap();
             let (job, stages, pool) = (&checked.job, &checked.stages, FramePool::default());
