@@ -138,7 +138,7 @@ mod tests {
         }
     }
 
-    /// Returns the farthest distance of two samples, in codes, in last bits of halves, or in millionths of white.
+    /// Returns the farthest distance of two samples, in codes, in last bits of halves, or in parts of white, of 250,000.
     fn steps_between(strips: &Samples, whole: &Samples) -> f32 {
         let farthest = |steps: &mut dyn Iterator<Item = f32>| steps.fold(0.0, f32::max);
         match (strips, whole) {
@@ -148,7 +148,9 @@ mod tests {
             (Samples::Half(a), Samples::Half(b)) => {
                 farthest(&mut a.iter().zip(b).map(|(a, b)| f32::from(a.to_bits().abs_diff(b.to_bits()))))
             }
-            (Samples::Float(a), Samples::Float(b)) => farthest(&mut a.iter().zip(b).map(|(a, b)| (a - b).abs() * 1e6)),
+            (Samples::Float(a), Samples::Float(b)) => {
+                farthest(&mut a.iter().zip(b).map(|(a, b)| (a - b).abs() * 2.5e5))
+            }
             other => panic!("{other:?}"),
         }
     }
