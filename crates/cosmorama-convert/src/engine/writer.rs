@@ -16,6 +16,8 @@ pub(crate) enum Levels {
     Light(Vec<Image<Rgba>>),
     /// Code values of 8 bits.
     Codes(Vec<Image<[u8; 3]>>),
+    /// Samples of a picture without levels.
+    Encoded(EncodedImage),
     /// Light, if the picture is written, with further channels.
     Layered { size: (usize, usize), picture: Option<Image<Rgba>>, planes: Vec<Plane> },
 }
@@ -102,6 +104,21 @@ impl Writer {
         Ok(self.videos.leave_out(place, &self.options.pool)?)
     }
 
+    /// Encodes light, whose memory goes back to the pool.
+    pub(crate) fn encode(&self, mut image: Image<Rgba>, threads: Threads) -> EncodedImage {
+        if let Some(conversion) = &self.conversion {
+            conversion.convert_all(image.pixels_mut(), threads);
+        }
+        if self.is_half {
+            let colours = image.pixels().iter().flat_map(|pixel| &pixel.0[..3]);
+            let brighter = colours.filter(|sample| sample.abs() > Depth::Half.most()).count();
+            self.overflowed.fetch_add(brighter, Ordering::Relaxed);
+        }
+        let encoded = self.encoder.encode_in(&image, threads, &self.options.pool);
+        self.options.pool.give_image(image);
+        encoded
+    }
+
     /// Writes an output of a frame, a picture and its mip levels, with what its own frame says. Their memory goes back to the pool.
     pub(crate) fn save(&self, words: FrameWords, levels: Levels, path: &Path, threads: Threads) -> Result<()> {
         let hidden = self.save_hidden(words, levels, path, threads)?;
@@ -124,22 +141,11 @@ impl Writer {
         options.metadata.remarks.extend(self.said.get().cloned());
         let options = &options;
         let pool = &*self.options.pool;
-        let encode = |mut image: Image<Rgba>| {
-            if let Some(conversion) = &self.conversion {
-                conversion.convert_all(image.pixels_mut(), threads);
-            }
-            if self.is_half {
-                let colours = image.pixels().iter().flat_map(|pixel| &pixel.0[..3]);
-                let brighter = colours.filter(|sample| sample.abs() > Depth::Half.most()).count();
-                self.overflowed.fetch_add(brighter, Ordering::Relaxed);
-            }
-            let encoded = self.encoder.encode_in(&image, threads, pool);
-            pool.give_image(image);
-            encoded
-        };
+        let encode = |image: Image<Rgba>| self.encode(image, threads);
         let encoded: Vec<EncodedImage> = match levels {
             Levels::Light(images) => images.into_iter().map(encode).collect(),
             Levels::Codes(images) => images.into_iter().map(EncodedImage::of_codes).collect(),
+            Levels::Encoded(image) => vec![image],
             Levels::Layered { size, picture, planes } => {
                 let picture = picture.map(encode);
                 let layered = LayeredImage { size, picture: picture.as_ref(), names: self.names.clone(), planes };

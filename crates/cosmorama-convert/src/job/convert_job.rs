@@ -16,7 +16,7 @@ use cosmorama_spec::Missing;
 use super::Content;
 use super::backdrop::{FoundBackdrop, Front};
 use super::gaps::Shot;
-use super::memory_needs::{FrameNeeds, Held, gathered_bytes, program_bytes, with_reserve};
+use super::memory_needs::{FrameNeeds, Held, MOST_HELD, gathered_bytes, program_bytes, with_reserve};
 use super::options::{check_file_options, filter};
 use crate::colour::{LayerPlan, Light, check_choice, check_labels, check_light};
 use crate::detect::unless_damaged;
@@ -367,7 +367,27 @@ impl ConvertJob {
             return needs;
         }
         let views = self.target.views.iter().map(|target| (target.view.width(), target.view.height()));
-        needs.with_bands(self.input.texels() as u64, views)
+        let needs = needs.with_bands(self.input.texels() as u64, views);
+        if self.is_by_strips() { needs.by_strips(&self.target) } else { needs }
+    }
+
+    /// Returns whether the picture is too large to be held as light, and of nothing but its own light: it is encoded strip by strip.
+    pub(crate) fn is_by_strips(&self) -> bool {
+        let [file] = &self.target.files[..] else { return false };
+        let is_large = file.sheet.size.0.saturating_mul(file.sheet.size.1) > MOST_HELD;
+        let is_alone = file.sheet.pieces.len() == 1 && file.mips.is_empty() && self.input.frames.len() == 1;
+        is_large
+            && is_alone
+            && !self.outputs.are_many()
+            && !self.target.format.is_video()
+            && self.filter.kind == FilterKind::Ewa
+            && !self.is_balance_asked_for()
+            && !self.is_blurred
+            && self.lighting.is_none()
+            && self.formula.is_none()
+            && self.backdrop.is_none()
+            && self.layers.is_plain()
+            && self.fixed_codec().is_none()
     }
 
     /// Returns the memory that a single frame needs in all: with the program, further channels, and what lies behind.

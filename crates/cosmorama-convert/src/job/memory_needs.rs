@@ -161,6 +161,15 @@ impl FrameNeeds {
         Self { samples: Samples { is_kept: true, ..self.samples }, ..self }
     }
 
+    /// Returns the needs of a picture that is encoded strip by strip: of light, only a strip is there at once. OpenEXR is given a copy of
+    /// the samples, channel by channel.
+    pub(crate) fn by_strips(self, target: &Target) -> Self {
+        let widest = target.views.iter().map(|target| target.view.width()).max().unwrap_or(0);
+        let copied = if target.format == Format::Exr { self.encoded } else { 0 };
+        let strip = area((widest, STRIP)).saturating_mul(size_of::<Rgba>() as u64);
+        Self { pictures: self.encoded, piece: strip, encoded: copied, ..self }
+    }
+
     /// Returns the bytes that a frame takes at once, at most, without those of the program. Samples of a single frame are freed as
     /// they become light.
     pub(crate) fn peak(self) -> u64 {
@@ -348,6 +357,12 @@ const RESERVE: u64 = 16;
 
 /// Memory of a view beside its texels: its names, its header and its geometry, in several lists.
 const VIEW: u64 = 5 << 10;
+
+/// Pixels of a picture that are held as light at once, at most, where it can be made by strips.
+pub(crate) const MOST_HELD: usize = 1 << 27;
+
+/// Rows of a strip.
+pub(crate) const STRIP: usize = 512;
 
 /// Rows that a thread works on.
 const BAND_ROWS: u64 = 32;

@@ -8,6 +8,8 @@ use crate::colour::{LayerPlan, Light};
 use crate::diagnostic::{Code, ConvertError, Diagnostic, OVERWRITE, RESUME, Result, failed_as};
 use crate::job::origin::{are_of_one_version, differences};
 use crate::job::{ConvertJob, FrameOutputs};
+use crate::source::Stamp;
+use crate::source::video::FrameName;
 use crate::target::TargetFile;
 
 /// An output whose place holds something else than `--resume` expects.
@@ -86,7 +88,15 @@ impl Resumed {
             let expected = Expected { target: &job.target.files[index], light, layers, origin: origin.as_deref() };
             match Found::at(&path, expected) {
                 Found::Nothing => left.push((index, path)),
-                Found::Complete { tells_how } => found.untold += usize::from(!tells_how),
+                Found::Complete { tells_how: false } => match newer_input(job, frame.frame, &path) {
+                    Some(input) => {
+                        let reason = format!("older than its input {}", input.display());
+                        found.remade.push(Remade { output: path.clone(), reason });
+                        left.push((index, path));
+                    }
+                    None => found.untold += 1,
+                },
+                Found::Complete { tells_how: true } => {}
                 Found::Other(reason) => {
                     found.remade.push(Remade { output: path.clone(), reason });
                     left.push((index, path));
@@ -102,7 +112,7 @@ impl Resumed {
     pub(crate) fn warning(&self) -> Option<Diagnostic> {
         let outputs = if self.untold == 1 { "1 output is".to_owned() } else { format!("{} outputs are", self.untold) };
         let message = format!(
-            "{RESUME}: {outputs} kept by size and samples alone: no word in the file says how it was made, by this version; if that \
+            "{RESUME}: {outputs} kept by size, samples and date alone: no word in the file says how it was made, by this version; if that \
              was by other settings or from other inputs, {OVERWRITE} makes all anew"
         );
         (self.untold > 0).then(|| Diagnostic::warning(Code::Remade, message))
@@ -192,6 +202,17 @@ impl Found {
             other => other.to_string(),
         })
     }
+}
+
+/// Returns an input of a frame that was changed after its output was made, as far as clocks tell.
+fn newer_input(job: &ConvertJob, frame: Option<u64>, output: &Path) -> Option<PathBuf> {
+    let made = Stamp::of(output)?;
+    let place = job.place(frame);
+    job.layers().find_map(|layer| {
+        let paths = layer.input.paths(*layer.input.frames.get(place)?);
+        let mut paths = paths.iter().chain(&layer.input.beside).map(|path| FrameName::file(path));
+        paths.find(|path| layer.files.stamp(path).is_some_and(|input| made.is_before(input)))
+    })
 }
 
 /// Returns the error about an output that was made by other settings.

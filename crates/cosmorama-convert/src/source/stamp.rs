@@ -5,7 +5,7 @@ use std::time::SystemTime;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stamp {
     length: u64,
-    /// Time, as the clock of the file's disk had it. Only equal times tell anything: clocks are set forward and back.
+    /// Time, as the clock of the file's disk had it. Clocks are set forward and back: an order of times proves nothing.
     changed: Option<SystemTime>,
 }
 
@@ -14,5 +14,10 @@ impl Stamp {
     pub(crate) fn of(path: &Path) -> Option<Self> {
         let found = std::fs::metadata(path).ok()?;
         Some(Self { length: found.len(), changed: found.modified().ok() })
+    }
+
+    /// Returns whether a file was changed before another, as far as clocks tell.
+    pub(crate) fn is_before(self, other: Self) -> bool {
+        self.changed.zip(other.changed).is_some_and(|(changed, other)| changed < other)
     }
 }

@@ -44,8 +44,7 @@ fn world_files_and_projects_are_refused_or_understood() {
     let texts: [(&str, &str, &[&str]); 3] = [
         (
             "m/world.toml",
-            "[[view]]\nimage = \"view.png\"\nspec = \"perspective:calibration=camera.json,yaw=10\"\npriority = 2\n\n[[view]]\nimage = \
-             \"view.png\"\nspec = \"perspective:fov=75,yaw=-30\"\nmask = \"view.png\"\nfeather = 3.5\n",
+            include_str!("../../../../fuzz/seeds/worlds/world.toml"),
             &[
                 "[[view]]\n",
                 "[[layer]]\n",
@@ -60,14 +59,12 @@ fn world_files_and_projects_are_refused_or_understood() {
         ),
         (
             "m/layers.toml",
-            "[[layer]]\nimage = \"view.png\"\nspec = \"perspective:fov=75\"\nopacity = 0.5\npath = \"path.csv\"\n\n[[layer]]\nimage = \
-             \"builtin:demo\"\nframes = \"hold\"\n",
+            include_str!("../../../../fuzz/seeds/worlds/layers.toml"),
             &["[[layer]]\n", "loop", "step", "fps = 25\n", "layers.toml", "builtin:checker", "opacity = "],
         ),
         (
             "m/two.pto",
-            "p f2 w64 h32 v360 n\"PNG\"\nm g1\ni w48 h36 f0 v75 a0.01 b0 c0 d1 e2 y10 p5 r3 n\"view.png\"\ni w48 h36 f0 v=0 y-40 p5 r3 \
-             n\"view.png\"\nk i0 t0 p\"1 2 30 4 5 30\"\n",
+            include_str!("../../../../fuzz/seeds/worlds/two.pto"),
             &["\ni ", "=0", "f3 ", "S0,40,0,30 ", "n\"view.png\"", "k i1 t1 p\""],
         ),
     ];

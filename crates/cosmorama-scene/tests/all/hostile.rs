@@ -31,12 +31,8 @@ impl SceneReader for Small {
     fn tell(&mut self, _: &Path, _: &str) {}
 }
 
-const SCENE: &str = "[camera]\nprojection = \"perspective:fov=40\"\neye = [0, 1, 5]\ntarget = [0, 0, 0]\nsize = \"64x48\"\n\n[world.sky]\n\
-                     image = \"sky.png\"\nspec = \"equirect\"\nproxy = \"box:4,3,4\"\ncentre = [0, 1, 0]\n\n[material.gold]\nmetallic = 1\n\
-                     roughness = 0.25\ncolor = \"#ffcc66\"\n\n[material.wood]\ntexture = \"wood.png\"\n\n[material.evening]\nkind = \"chrome\"\nchrome = \"-90=black;0=white\"\n\n\
-                     [[light]]\nyaw = 30\npitch = 50\npower = 200\ncolor = \"1,0.5,0\"\n\n[[object]]\nshape = \"sphere\"\n\
-                     material = \"gold\"\nworld = \"sky\"\ntranslate = [1, 0, 0]\n\n[[object]]\nshape = \"sphere\"\nmaterial = \"wood\"\n\n\
-                     [[object]]\nname = \"shiny\"\nshape = \"sphere\"\nmaterial = \"evening\"\n";
+/// A scene file that names most of what there is; fuzzing begins with it, too.
+const SCENE: &str = include_str!("../../../../fuzz/seeds/scenes/scene.toml");
 
 fn scene(text: &[u8]) -> bool {
     let Ok(text) = str::from_utf8(text) else { return false };
@@ -81,18 +77,11 @@ fn a_scene_file_is_no_longer_than_its_things() {
 fn models_are_refused_or_understood() {
     let folder = std::env::temp_dir().join(format!("cosmorama-hostile-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
-    let material = "newmtl red\nKd 1 0 0\nNs 20\nmap_Kd -s 2 2 2 wood.png\nnewmtl blue\nPr 0.5\nPm 1\nd 0.5\n";
+    let material = include_str!("../../../../fuzz/seeds/models/beside.mtl");
     std::fs::write(folder.join("beside.mtl"), material).unwrap();
-    let plane = "mtllib beside.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0 1.0\nv 0 1 0\nvt 0 0\nvt 1 1 0\nvn 0 0 1\ng left\nusemtl red\nf 1 2 3\nusemtl \
-                 blue\nf 1/1/1 3/2/1 4/1/1\nf -4//1 -3//-1 -2//1\n";
+    let plane = include_str!("../../../../fuzz/seeds/models/a.obj");
     std::fs::write(folder.join("beside.obj"), plane.replace("beside.mtl", "damaged.mtl")).unwrap();
-    let gltf = "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0,\"children\":[1]},{\"camera\":0}],\
-                \"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":1.0,\"znear\":0.1}}],\"materials\":[{\"pbrMetallicRoughness\":\
-                {\"baseColorFactor\":[1,0.5,0,1]}}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1,\"material\":0}]}],\
-                \"buffers\":[{\"byteLength\":42,\"uri\":\"data:application/octet-stream;base64,\
-                AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIA\"}],\"bufferViews\":[{\"buffer\":0,\"byteOffset\":0,\"byteLength\":36},\
-                {\"buffer\":0,\"byteOffset\":36,\"byteLength\":6}],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\
-                \"VEC3\",\"min\":[0,0,0],\"max\":[1,1,0]},{\"bufferView\":1,\"componentType\":5123,\"count\":3,\"type\":\"SCALAR\"}]}";
+    let gltf = include_str!("../../../../fuzz/seeds/models/a.gltf");
     let words =
         ["usemtl", "f 1 2 3\n", "\"children\":[0],", "\"sparse\":{\"count\":1},", "{", "}", "[", "]", "map_Bump "];
     for (seed, (name, opened, text)) in

@@ -44,7 +44,7 @@ fn resume_keeps_what_is_complete_and_makes_the_rest() {
     // Nothing is made again, and the frame of another program, which does not say how it was made, is told.
     let warnings = report["warnings"].to_string();
     assert!(report["remade"].as_array().unwrap().is_empty() && !warnings.contains("made again"), "{warnings}");
-    assert!(warnings.contains("--resume: 1 output is kept by size and samples alone"), "{warnings}");
+    assert!(warnings.contains("--resume: 1 output is kept by size, samples and date alone"), "{warnings}");
     bench.succeed(&[&args[..], &["-y"]].concat());
     assert!(bench.bytes("out_1.png") == made[0]);
 }
@@ -245,7 +245,39 @@ fn stripped_frames_say_nothing_of_how_they_were_made() {
     kept(&bench, &[&sequence[..], &["--yaw", "20"]].concat());
     let said = bench.run(&[&sequence[..], &["--yaw", "20", "--resume"]].concat());
     let told = crate::bench::text(&said.stderr);
-    crate::bench::assert_says(&told, &["warning: --resume: 1 output is kept by size and samples alone", "--overwrite"]);
+    crate::bench::assert_says(
+        &told,
+        &["warning: --resume: 1 output is kept by size, samples and date alone", "--overwrite"],
+    );
+}
+
+/// A format that has no room for words: what is older than its input is made again.
+#[test]
+fn frames_that_say_nothing_are_made_again_if_an_input_is_newer() {
+    use std::time::{Duration, SystemTime};
+
+    let bench = Bench::new();
+    let args = ["convert", "sky_#.png", "out_#.tga", "--to", "fisheye", "--size", "16", "--from", "equirect"];
+    let resume = [&args[..], &["--resume", "--json"]].concat();
+    for frame in 1..=2 {
+        bench.save(&format!("sky_{frame}.png"), &picture(frame, 64, 32));
+    }
+    bench.succeed(&args);
+    let made = bench.bytes("out_2.tga");
+    bench.save("sky_2.png", &picture(7, 64, 32));
+    // Not by the clock, whose ticks may be longer than this test.
+    let set = |name: &str, seconds: u64| {
+        let file = std::fs::File::options().write(true).open(bench.path(name)).unwrap();
+        file.set_modified(SystemTime::UNIX_EPOCH + Duration::from_secs(seconds)).unwrap();
+    };
+    for (name, seconds) in [("sky_1.png", 1000), ("out_1.tga", 1000), ("out_2.tga", 1000), ("sky_2.png", 1001)] {
+        set(name, seconds);
+    }
+    let report: Value = serde_json::from_str(&bench.succeed(&resume)).unwrap();
+    assert_eq!((&report["frames"], &report["skipped"]), (&1.into(), &1.into()), "{report}");
+    assert_eq!(report["remade"][0]["reason"], "older than its input sky_2.png", "{report}");
+    assert!(report["warnings"].to_string().contains("1 output is kept by size, samples and date alone"), "{report}");
+    assert!(bench.bytes("out_2.tga") != made);
 }
 
 /// Makes a picture; what is made is kept when it is asked for again.

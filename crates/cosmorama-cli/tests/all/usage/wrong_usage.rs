@@ -29,6 +29,7 @@ fn wrong_usage() {
     assert_says(&convert(&["out.png", "--to", "cube"]), &["{face}"]);
     assert_says(&convert(&["{face}.png", "--to", "omnimax"]), &["names the faces of a cube"]);
     assert_says(&convert(&["out_####.png", "--to", "omnimax"]), &["frame marker"]);
+    assert_says(&convert(&["out_##.mp4", "--to", "omnimax"]), &["out_##.mp4 is a video", "without a frame marker"]);
     assert_says(&convert(&["out.jpg", "--to", "omnimax", "--depth", "16"]), &["JPEG", "8"]);
     assert_says(&convert(&["out.jpg", "--to", "omnimax", "--background", "transparent"]), &["JPEG", "transparent"]);
     assert_says(&convert(&["out.png", "--to", "omnimax", "--kernel", "gauss"]), &["There are adaptive, gaussian"]);

@@ -6,3 +6,4 @@ mod decisions;
 pub(crate) mod files;
 pub(crate) mod light;
 pub(crate) mod pictures;
+mod strips;

@@ -350,6 +350,9 @@ impl<'a> Engine<'a> {
             let picture = |sheet: &Sheet| sheet.assemble_in(&self.pool, background, &mut view);
             return Ok(Levels::Codes(sheets.map(picture).collect::<Result<_>>()?));
         }
+        if self.job.is_by_strips() {
+            return Ok(Levels::Encoded(self.strips(file, (frame, light), making)?));
+        }
         let mut view = |index| self.render_view(index, (frame, light), making);
         let picture = |sheet: &Sheet| sheet.assemble_in(&self.pool, self.job.light.background, &mut view);
         Ok(Levels::Light(sheets.map(picture).collect::<Result<_>>()?))
@@ -396,7 +399,7 @@ impl<'a> Engine<'a> {
         made.map_err(|Stopped| self.stopped())
     }
 
-    fn render_view(
+    pub(super) fn render_view(
         &self,
         index: usize,
         (frame, light): (Option<u64>, &FrameLight),

@@ -37,7 +37,7 @@ impl Videos {
         Err(refusal(&name.video))
     }
 
-    pub(crate) fn picture(&self, name: &FrameName, _: &Limits) -> Result<ImageFile, IoError> {
+    pub(crate) fn picture(&self, name: &FrameName, _: &Limits, _: &FramePool) -> Result<ImageFile, IoError> {
         Err(refusal(&name.video))
     }
 
@@ -77,6 +77,8 @@ impl Videos {
         Err(refusal(video))
     }
 
+    pub(crate) fn expect_rows(&self, _: &Path, _: Range<usize>) {}
+
     pub(crate) fn end(&self) -> std::result::Result<(), IoError> {
         Ok(())
     }
@@ -95,7 +97,7 @@ impl MadeVideos {
         false
     }
 
-    pub(crate) fn check(_: &[PathBuf], _: &VideoPlan) -> Result<()> {
+    pub(crate) fn check(_: &[PathBuf], _: &VideoPlan, _: Option<&Videos>) -> Result<()> {
         Ok(())
     }
 

@@ -1,8 +1,10 @@
-use std::io::Write;
+use std::cell::RefCell;
+use std::io::{self, Write};
+use std::ops::Range;
 use std::path::Path;
 
 use bytemuck::cast_slice;
-use cosmorama::raster::{Channels, Depth, EncodedImage, FramePool, Samples};
+use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
 use png::chunk::sBIT;
 use png::{BitDepth, ColorType, DeflateCompression, Encoder, EncodingError, Filter, Info, Writer};
 
@@ -20,7 +22,47 @@ pub(crate) fn write(
     encode(output, image, options).map_err(|error| IoError::write(path, error))
 }
 
+/// Bytes of a chunk of compressed samples.
+const CHUNK: usize = 1 << 18;
+
+/// Rows of a sample that tells whether compression pays, out of as many as `SAMPLED_OF`.
+const SAMPLED: usize = 8;
+
+/// Rows out of which `SAMPLED` are compressed for a trial.
+const SAMPLED_OF: usize = 256;
+
 fn encode(output: impl Write, image: &EncodedImage, options: &WriteOptions) -> Result<(), EncodingError> {
+    let failed = RefCell::new(None);
+    let encoded = encode_to(Faithful { output, failed: &failed }, image, options);
+    failed.take().map_or(encoded, |error| Err(EncodingError::IoError(error)))
+}
+
+/// A writer that keeps its first error, and takes no bytes thereafter: the encoder panics where its last bytes cannot be written.
+struct Faithful<'a, W> {
+    output: W,
+    failed: &'a RefCell<Option<io::Error>>,
+}
+
+impl<W: Write> Write for Faithful<'_, W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let mut failed = self.failed.borrow_mut();
+        if failed.is_none() {
+            *failed = self.output.write_all(bytes).err();
+        }
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.output.flush()
+    }
+}
+
+fn encode_to<W: Write>(
+    output: Faithful<'_, W>,
+    image: &EncodedImage,
+    options: &WriteOptions,
+) -> Result<(), EncodingError> {
+    let failed = output.failed;
     let metadata = &options.metadata;
     // A profile describes the colours completely.
     let tag = match &metadata.icc {
@@ -36,8 +78,11 @@ fn encode(output: impl Write, image: &EncodedImage, options: &WriteOptions) -> R
     // filtered by Up are read in a third of the time that others take.
     let (deflate, filter) = match options.compression {
         Compression::None => (DeflateCompression::NoCompression, Filter::NoFilter),
-        Compression::Fast => (DeflateCompression::FdeflateUltraFast, Filter::Up),
-        Compression::Balanced => (DeflateCompression::FdeflateUltraFast, Filter::Adaptive),
+        Compression::Fast if pays(image, Filter::Up)? => (DeflateCompression::FdeflateUltraFast, Filter::Up),
+        Compression::Balanced if pays(image, Filter::Adaptive)? => {
+            (DeflateCompression::FdeflateUltraFast, Filter::Adaptive)
+        }
+        Compression::Fast | Compression::Balanced => (DeflateCompression::NoCompression, Filter::NoFilter),
         Compression::High => (DeflateCompression::Level(6), Filter::Adaptive),
     };
     encoder.set_deflate_compression(deflate);
@@ -45,7 +90,13 @@ fn encode(output: impl Write, image: &EncodedImage, options: &WriteOptions) -> R
     let mut writer = encoder.write_header()?;
     write_chunks(&mut writer, image, tag)?;
     carried::write(&mut writer, metadata, size)?;
-    write_samples(&mut writer, image, &options.pool)?;
+    // Row by row, so that no compressed copy of the picture is held beside it.
+    let mut samples = writer.stream_writer_with_size(CHUNK)?;
+    each_row(image, 0..image.height(), |row| {
+        samples.write_all(row)?;
+        if failed.borrow().is_none() { Ok(()) } else { Err(limit("the file takes no more")) }
+    })?;
+    samples.finish()?;
     writer.finish()
 }
 
@@ -84,15 +135,53 @@ fn write_chunks(writer: &mut Writer<impl Write>, image: &EncodedImage, tag: Opti
     Ok(())
 }
 
-fn write_samples(writer: &mut Writer<impl Write>, image: &EncodedImage, pool: &FramePool) -> Result<(), EncodingError> {
+/// Returns whether some evenly spaced rows become smaller by fast compression. Noise does not.
+fn pays(image: &EncodedImage, filter: Filter) -> Result<bool, EncodingError> {
+    let mut sample = Vec::new();
+    for rows in sampled(image.height()) {
+        each_row(image, rows, |row| {
+            sample.extend_from_slice(row);
+            Ok(())
+        })?;
+    }
+    let bytes = sample.len();
+    let metadata = Metadata::default();
+    let info = info(image, &metadata, None)?;
+    let row = info.raw_row_length() - 1;
+    let mut compressed = Vec::new();
+    let mut encoder = Encoder::new(&mut compressed, info.width, dimension(bytes / row)?);
+    encoder.set_color(info.color_type);
+    encoder.set_depth(info.bit_depth);
+    encoder.set_deflate_compression(DeflateCompression::FdeflateUltraFast);
+    encoder.set_filter(filter);
+    encoder.write_header()?.write_image_data(&sample)?;
+    Ok(compressed.len() < bytes)
+}
+
+/// Visits the rows of a sample.
+fn sampled(height: usize) -> impl Iterator<Item = Range<usize>> {
+    (0..height).step_by(SAMPLED_OF).map(move |first| {
+        let middle = first + (SAMPLED_OF.min(height - first)).saturating_sub(SAMPLED) / 2;
+        middle..(middle + SAMPLED).min(height)
+    })
+}
+
+/// Hands rows to a function as PNG has their samples.
+fn each_row(
+    image: &EncodedImage,
+    rows: Range<usize>,
+    mut write: impl FnMut(&[u8]) -> Result<(), EncodingError>,
+) -> Result<(), EncodingError> {
+    let count = image.width() * image.channels().count();
+    let place = rows.start * count..rows.end * count;
     match image.samples() {
-        Samples::U8(samples) => writer.write_image_data(samples),
+        Samples::U8(samples) => samples[place].chunks_exact(count).try_for_each(write),
         Samples::U16(samples) => {
-            let mut big_endian = pool.take::<u16>(samples.len());
-            big_endian.iter_mut().zip(samples).for_each(|(into, sample)| *into = sample.to_be());
-            let written = writer.write_image_data(cast_slice(&big_endian));
-            pool.give(Samples::U16(big_endian));
-            written
+            let mut big_endian = vec![0u16; count];
+            samples[place].chunks_exact(count).try_for_each(|row| {
+                big_endian.iter_mut().zip(row).for_each(|(into, sample)| *into = sample.to_be());
+                write(cast_slice(&big_endian))
+            })
         }
         // Callers have checked with `Format::supports`.
         Samples::Half(_) | Samples::Float(_) => Err(limit("PNG has no float samples")),
@@ -105,4 +194,88 @@ fn dimension(pixels: usize) -> Result<u32, EncodingError> {
 
 fn limit(reason: &str) -> EncodingError {
     EncodingError::IoError(std::io::Error::other(reason))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Cursor;
+
+    use super::*;
+    use crate::{Limits, read_from};
+
+    /// Columns and rows, more than a sample has.
+    const SIZE: (usize, usize) = (64, 600);
+
+    fn options(compression: Compression) -> WriteOptions {
+        WriteOptions { compression, ..WriteOptions::default() }
+    }
+
+    fn picture(sample: impl FnMut(usize) -> u16) -> EncodedImage {
+        let samples = Samples::U16((0..SIZE.0 * SIZE.1 * 3).map(sample).collect());
+        EncodedImage::new(SIZE.0, SIZE.1, Channels::Rgb, Depth::Sixteen, samples).unwrap()
+    }
+
+    /// Makes a picture whose samples say nothing of each other.
+    fn noise() -> EncodedImage {
+        let mut state = 1u64;
+        picture(|_| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 48) as u16
+        })
+    }
+
+    #[test]
+    fn noise_is_stored_and_smooth_pictures_are_compressed() {
+        let smooth = picture(|at| (at % (SIZE.0 * 3) * 100) as u16);
+        for (image, compression, is_small) in [
+            (&smooth, Compression::None, false),
+            (&smooth, Compression::Fast, true),
+            (&smooth, Compression::Balanced, true),
+            (&smooth, Compression::High, true),
+            (&noise(), Compression::Fast, false),
+            (&noise(), Compression::Balanced, false),
+            (&noise(), Compression::High, false),
+        ] {
+            let mut file = Vec::new();
+            encode(&mut file, image, &options(compression)).unwrap();
+            let raw = SIZE.0 * SIZE.1 * 6;
+            assert!(file.len() < raw + raw / 100, "{compression:?}: {} of {raw} bytes", file.len());
+            assert_eq!(file.len() < raw / 2, is_small, "{compression:?}: {} of {raw} bytes", file.len());
+            let read = read_from(Cursor::new(&file), Path::new("a.png"), &Limits::memory(1 << 24)).unwrap();
+            assert_eq!(read.image.samples(), image.samples(), "{compression:?}");
+        }
+    }
+
+    /// A disk with so much room.
+    struct Small(usize);
+
+    impl Write for Small {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            if self.0 == 0 {
+                return Err(io::Error::from(io::ErrorKind::StorageFull));
+            }
+            let taken = bytes.len().min(self.0);
+            self.0 -= taken;
+            Ok(taken)
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn a_full_disk_is_an_error_wherever_it_comes() {
+        let image = picture(|at| (at % 1000) as u16);
+        for compression in [Compression::None, Compression::Balanced, Compression::High] {
+            let mut file = Vec::new();
+            encode(&mut file, &image, &options(compression)).unwrap();
+            let places = (0..200).chain((200..file.len() - 200).step_by(997)).chain(file.len() - 200..file.len());
+            for place in places {
+                let error = encode(Small(place), &image, &options(compression)).unwrap_err();
+                assert!(matches!(&error, EncodingError::IoError(error) if error.kind() == io::ErrorKind::StorageFull));
+            }
+            encode(Small(file.len()), &image, &options(compression)).unwrap();
+        }
+    }
 }

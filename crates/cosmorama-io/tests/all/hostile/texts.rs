@@ -25,86 +25,67 @@ struct Kind {
 const KINDS: [Kind; 11] = [
     Kind {
         name: "opencv.yml",
-        text: "%YAML:1.0\n---\nimage_width: 320\nimage_height: 240\ncamera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   \
-               dt: d\n   data: [ 200., 0., 160., 0., 200., 120., 0., 0., 1. ]\ndistortion_coefficients: !!opencv-matrix\n   \
-               rows: 1\n   cols: 5\n   dt: d\n   data: [ 0.1, 0., 0., 0., 0. ]\n",
+        text: include_str!("../../../../../fuzz/seeds/calibrations/opencv.yml"),
         words: &["&a ", "*a ", "? ", "- ", "|\n", "<<: *a", "xi: 1", "model: kannala-brandt", "%TAG ! !"],
         read: calibration,
     },
     Kind {
         name: "ros.yaml",
-        text: "image_width: 640\nimage_height: 480\ncamera_name: narrow\ncamera_matrix:\n  rows: 3\n  cols: 3\n  data: [500, 0, 330, 0, \
-               510, 250, 0, 0, 1]\ndistortion_model: plumb_bob\ndistortion_coefficients:\n  rows: 1\n  cols: 5\n  data: [-0.2, 0.01, \
-               0.0001, 0.0002, 0]\n",
+        text: include_str!("../../../../../fuzz/seeds/calibrations/ros.yaml"),
         words: &["fisheye", "equidistant", "rational_polynomial", "cam1:", "&a ", "*a "],
         read: calibration,
     },
     Kind {
         name: "camera.json",
-        text: "{\"K\": [[100, 0, 160], [0, 100, 120], [0, 0, 1]], \"D\": [0.1, 0, 0, 0], \"width\": 320, \"height\": 240}",
+        text: include_str!("../../../../../fuzz/seeds/calibrations/camera.json"),
         words: &["[", "]", "{", "}", "null", "\"xi\": 2,", "\"model\": \"fisheye\","],
         read: calibration,
     },
     Kind {
         name: "opencv.xml",
-        text: "<?xml version=\"1.0\"?>\n<opencv_storage>\n<image_width>320</image_width>\n<image_height>240</image_height>\n\
-               <camera_matrix type_id=\"opencv-matrix\"><rows>3</rows><cols>3</cols><dt>d</dt><data>200. 0. 160. 0. 200. 120. 0. \
-               0. 1.</data></camera_matrix>\n<distortion_coefficients type_id=\"opencv-matrix\"><rows>1</rows><cols>5</cols>\
-               <dt>d</dt><data>0.1 0. 0. 0. 0.</data></distortion_coefficients>\n</opencv_storage>\n",
+        text: include_str!("../../../../../fuzz/seeds/calibrations/opencv.xml"),
         words: &["<a>", "</a>", "<!--", "-->", "<![CDATA[", "<!DOCTYPE a [<!ENTITY b \"c\">]>", "&b;", "&#x0;"],
         read: calibration,
     },
     Kind {
         name: "ocam.txt",
-        text: "#polynomial coefficients for the DIRECT mapping\n5 -100 0 1e-3 2e-6 1e-9\n\n#inverse\n2 100 50\n\n#center\n120 160\n\n\
-               #affine\n1 0 0\n\n#size\n240 320\n",
+        text: include_str!("../../../../../fuzz/seeds/calibrations/ocam.txt"),
         words: &["#", "\n\n", "5 ", "1000000 "],
         read: calibration,
     },
     Kind {
         name: "two.pto",
-        text: "# hugin project file\np f2 w400 h200 v360 E0 R0 S0,400,0,200 n\"TIFF_m\"\nm g1 i0 m2\n\ni w320 h240 f0 v60 Ra0 Rb0 Eev0 Er1 \
-               Va1 Vb0 a0.1 b0 c0 d1 e2 y10 p5 r3 TrX0 TrY0 TrZ0 j0 n\"a.png\"\ni w320 h240 f0 v=0 a=0 b=0 c=0 d=0 e=0 y-40 p5 r3 \
-               n\"b.png\"\n\nk i0 t0 p\"1 2 30 4 5 60\"\nv a0 y1\nc n0 N1 x1 y2 X3 Y4 t0\n*\n",
+        text: include_str!("../../../../../fuzz/seeds/projects/two.pto"),
         words: &["\ni ", "\np ", "\nk ", "=0", "=1", "v=1", "n\"", "S1,2,3,4 ", "f3 ", "f19 "],
         read: project,
     },
     Kind {
         name: "path.csv",
-        text: "# from a tracker\nframe,yaw,pitch,roll,fov\n1,0,0,0,60\n10,30,10,0,60\n25,45,10.5,-3,70\n",
+        text: include_str!("../../../../../fuzz/seeds/paths/path.csv"),
         words: &["time", "qw,qx,qy,qz", ";", "\t", "\"", "\"\"", "\r\n", "org_pitch", "nan"],
         read: path,
     },
     Kind {
         name: "quaternions.json",
-        text: "[{\"time\": 0, \"qw\": 1, \"qx\": 0, \"qy\": 0, \"qz\": 0, \"fov\": 50}, {\"time\": 0.5, \"qw\": 0.98, \"qx\": 0, \"qy\": 0.19899748742132, \
-               \"qz\": 0, \"fov\": 60}]",
+        text: include_str!("../../../../../fuzz/seeds/paths/quaternions.json"),
         words: &["[", "]", "{", "}", "null", "\"frame\": 1,", "\"time\": [0, 1],", "\"yaw\": 3,"],
         read: path,
     },
     Kind {
         name: "gyroflow.csv",
-        text: "frame,timestamp_ms,org_pitch,org_yaw,org_roll,stab_pitch,stab_yaw,stab_roll\n0,0.000,0.1,0.2,0.3,0,0,0\n1,33.367,0.2,0.3,\
-               0.4,0.1,0,0\n2,66.733,0.3,0.4,0.5,0.1,0.1,0\n",
+        text: include_str!("../../../../../fuzz/seeds/paths/gyroflow.csv"),
         words: &["org_quat_w,org_quat_x,org_quat_y,org_quat_z", "stab_", "\n", ","],
         read: path,
     },
     Kind {
         name: "gyroflow.json",
-        text: "{\"frame\": [0, 1], \"timestamp_ms\": [0, 33.4], \"org_quat_w\": [1, 1], \"org_quat_x\": [0, 0], \"org_quat_y\": [0, 0], \
-               \"org_quat_z\": [0, 0]}",
+        text: include_str!("../../../../../fuzz/seeds/paths/gyroflow.json"),
         words: &["[", "]", "{", "}", "null", "\"stab_quat_w\": [1, 1],"],
         read: path,
     },
     Kind {
         name: "camera.gltf",
-        text: "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"name\":\"Camera\",\"camera\":0}],\
-               \"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":1.0,\"znear\":0.1}}],\"buffers\":[{\"byteLength\":40,\"uri\":\
-               \"data:application/octet-stream;base64,AAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAPMENT8AAAAA8wQ1Pw==\"}],\"bufferViews\":[\
-               {\"buffer\":0,\"byteOffset\":0,\"byteLength\":8},{\"buffer\":0,\"byteOffset\":8,\"byteLength\":32}],\"accessors\":[\
-               {\"bufferView\":0,\"componentType\":5126,\"count\":2,\"type\":\"SCALAR\",\"min\":[0],\"max\":[1]},{\"bufferView\":1,\
-               \"componentType\":5126,\"count\":2,\"type\":\"VEC4\"}],\"animations\":[{\"samplers\":[{\"input\":0,\"output\":1,\"interpolation\":\
-               \"LINEAR\"}],\"channels\":[{\"sampler\":0,\"target\":{\"node\":0,\"path\":\"rotation\"}}]}]}",
+        text: include_str!("../../../../../fuzz/seeds/paths/camera.gltf"),
         words: &[
             "CUBICSPLINE",
             "STEP",

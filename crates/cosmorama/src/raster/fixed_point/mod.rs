@@ -126,6 +126,7 @@ const LIGHT: usize = 1 << 15;
 pub struct FixedCodec {
     /// Codes of all light values: one table for all channels, or one for each.
     codes: Vec<Codes>,
+    #[cfg(target_arch = "x86_64")]
     is_srgb: bool,
     background: Rgba,
 }
@@ -142,8 +143,12 @@ impl FixedCodec {
             codes[..LIGHT].iter_mut().enumerate().for_each(|(light, into)| *into = code(light, *channel));
         }
         let is_fine = |codes: &Codes| codes[..LIGHT].windows(1 + ERROR).all(|some| (0..=1).contains(&rise(some)));
-        let is_srgb = *transfer == Transfer::Srgb;
-        codes.iter().all(is_fine).then_some(Self { codes, is_srgb, background })
+        codes.iter().all(is_fine).then_some(Self {
+            codes,
+            #[cfg(target_arch = "x86_64")]
+            is_srgb: *transfer == Transfer::Srgb,
+            background,
+        })
     }
 
     /// Returns the codes of the background.
@@ -160,7 +165,11 @@ impl FixedCodec {
     #[inline(always)]
     pub(crate) fn codes(&self) -> FixedCodes<'_> {
         let last = self.codes.len() - 1;
-        FixedCodes { channels: [&self.codes[0], &self.codes[last / 2], &self.codes[last]], are_srgb: self.is_srgb }
+        FixedCodes {
+            channels: [&self.codes[0], &self.codes[last / 2], &self.codes[last]],
+            #[cfg(target_arch = "x86_64")]
+            are_srgb: self.is_srgb,
+        }
     }
 
     /// Encodes a picture in front of the background.
@@ -184,11 +193,14 @@ impl FixedCodec {
 pub(crate) struct FixedCodes<'a> {
     /// Tables of red, green and blue.
     channels: [&'a Codes; 3],
+    /// Whether the codes are those of sRGB, which AVX-512 computes.
+    #[cfg(target_arch = "x86_64")]
     are_srgb: bool,
 }
 
 impl FixedCodes<'_> {
     /// Returns whether the codes are those of sRGB.
+    #[cfg(target_arch = "x86_64")]
     pub(crate) fn are_srgb(self) -> bool {
         self.are_srgb
     }

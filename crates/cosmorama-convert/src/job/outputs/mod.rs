@@ -1,16 +1,22 @@
+mod places;
+
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
-use cosmorama_io::pending::{NewFolders, Pending, free_space, place};
+use cosmorama_io::pending::{NewFolders, Pending, free_space};
 use cosmorama_io::{Compression, Format, FramePattern};
 
-use crate::diagnostic::{Code, Diagnostic, FRAMES, OVERWRITE, RESUME, Result, bail, failure, usage, usage_as};
+use crate::diagnostic::{
+    Code, ConvertError, Diagnostic, FRAMES, OVERWRITE, RESUME, Result, bail, failure, usage, usage_as,
+};
 use crate::input::Input;
 use crate::job::{ConvertJob, Remade, Resumed};
 use crate::settings::{Conversion, Existing, GeometrySettings};
 use crate::source::ViewFiles;
 use crate::source::memory_budget::human;
 use crate::target::{Target, TargetFile};
+
+use places::Places;
 
 /// A frame with its outputs that are still to be made.
 #[derive(Clone)]
@@ -19,6 +25,13 @@ pub(crate) struct FrameOutputs {
     pub(crate) frame: Option<u64>,
     /// Index of a target file and its path.
     pub(crate) files: Vec<(usize, PathBuf)>,
+}
+
+impl FrameOutputs {
+    /// Visits the frame's outputs that are not among those of another.
+    fn paths_beside<'a>(&'a self, other: &'a [(usize, PathBuf)]) -> impl Iterator<Item = &'a Path> {
+        self.files.iter().filter(|file| !other.contains(file)).map(|(_, path)| path.as_path())
+    }
 }
 
 /// Outputs of a conversion.
@@ -34,6 +47,8 @@ pub(crate) struct Outputs {
     pub(crate) skipped: usize,
     /// Findings in the places of others.
     pub(crate) resumed: Resumed,
+    /// Outputs in whose places something may be.
+    taken: HashSet<PathBuf>,
     /// Folders that were created for outputs; they are removed with this value if they stay empty.
     _folders: NewFolders,
 }
@@ -56,9 +71,8 @@ impl Outputs {
 
     /// Visits all outputs to make. A video is one output of all frames.
     pub(crate) fn paths(&self) -> impl Iterator<Item = &Path> {
-        let mut seen = HashSet::new();
-        let paths = self.frames.iter().flat_map(|frame| frame.files.iter().map(|(_, path)| path.as_path()));
-        paths.filter(move |path| seen.insert(*path))
+        let before = std::iter::once(&[][..]).chain(self.frames.iter().map(|frame| &frame.files[..]));
+        self.frames.iter().zip(before).flat_map(|(frame, before)| frame.paths_beside(before))
     }
 
     /// Returns the warnings about outputs that are made again, and about those that are kept without their word.
@@ -82,24 +96,33 @@ impl Outputs {
         check_resume(args, target)?;
         check_order(args, input)?;
         let inputs = files_read((input, behind), &args.geometry);
-        let (mut frames, mut made) = (Vec::new(), NewFolders::new(&args.unfinished));
-        let (mut folders, mut places) = (HashSet::new(), HashMap::new());
-        for &frame in &input.frames {
+        let (mut frames, mut made) = (Vec::<FrameOutputs>::new(), NewFolders::new(&args.unfinished));
+        let (mut places, mut taken) = (Places::default(), HashSet::new());
+        // Outputs by their places, as indices of a frame and of its file.
+        let (mut folders, mut outputs) = (HashSet::new(), HashMap::new());
+        for (index, &frame) in input.frames.iter().enumerate() {
             let FrameOutputs { files, .. } = Self::of_frame(frame, target);
             let is_begun = target.format.is_video() && !frames.is_empty() || args.sink.is_some();
-            for (_, path) in files.iter().filter(|_| !is_begun) {
-                check_apart(path, &inputs)?;
+            for (number, (_, path)) in files.iter().enumerate().filter(|_| !is_begun) {
                 // Not the folder behind a link: if that is missing, its disk may not be mounted.
-                if let (true, Some(folder)) = (args.make_folders, path.parent()) {
+                if let (true, false, Some(folder)) = (args.make_folders, places.know_folder_of(path), path.parent()) {
                     make_folder(&mut made, folder)?;
                 }
-                // If the path cannot be resolved, the error comes with its frame, below.
-                let place = real_path(&place(path).unwrap_or_else(|_| path.clone()));
-                if folders.insert(place.parent().map(Path::to_owned)) {
+                let place = places.of(path);
+                if inputs.contains(&place.file) {
+                    return Err(is_input(path));
+                }
+                if place.is_taken {
+                    taken.insert(path.clone());
+                }
+                let folder = place.file.parent().unwrap_or(Path::new("")).as_os_str();
+                if !folders.contains(folder) {
                     // Finds a folder that is missing or read-only before hours of work, not after.
                     Pending::create(path, &args.unfinished)?;
+                    folders.insert(folder.to_owned());
                 }
-                if let Some(other) = places.insert(place, path.clone()) {
+                if let Some((frame, file)) = outputs.insert(place.file.into_os_string(), (index, number)) {
+                    let other = if frame == index { &files[file].1 } else { &frames[frame].files[file].1 };
                     let (path, other) = (path.display(), other.display());
                     return Err(usage_as(
                         Code::SameFile,
@@ -115,6 +138,7 @@ impl Outputs {
             frames,
             go_on: go_on(args, input),
             is_passed_on: args.sink.is_some(),
+            taken,
             _folders: made,
             ..Self::default()
         })
@@ -133,7 +157,8 @@ impl Outputs {
             Existing::Resume => self.resumed = Resumed::find(&mut self.frames, job)?,
             Existing::Refuse if !self.is_passed_on => {
                 let numbered = if self.go_on { numbered(&job.target) } else { Vec::new() };
-                let others = self.paths().filter(|path| !numbered.iter().any(|numbered| numbered == path));
+                let taken = self.paths().filter(|path| self.taken.contains(*path));
+                let others = taken.filter(|path| !numbered.iter().any(|numbered| numbered == path));
                 let all = others.chain(numbered.iter().map(PathBuf::as_path));
                 let keep =
                     if job.is_resumable() { format!(", or keep what is there with {RESUME}") } else { String::new() };
@@ -176,8 +201,8 @@ impl Space {
         let raw = files.iter().map(bytes).fold(0, u64::saturating_add);
         let frame = compressed(raw, *format, compression);
         let frames = &job.outputs.frames;
-        let replaced = |(_, path): &(usize, PathBuf)| std::fs::metadata(path).map_or(0, |file| file.len());
-        let replaced: u64 = frames.iter().flat_map(|frame| &frame.files).map(replaced).sum();
+        let taken = job.outputs.paths().filter(|path| job.outputs.taken.contains(*path));
+        let replaced: u64 = taken.map(|path| std::fs::metadata(path).map_or(0, |file| file.len())).sum();
         let folder = frames.first().and_then(|frame| frame.files.first()).and_then(|(_, path)| path.parent());
         let folder = folder.filter(|_| !job.outputs.is_passed_on);
         let free = folder.and_then(free_space).map(|free| free.saturating_add(replaced));
@@ -232,6 +257,12 @@ fn make_folder(made: &mut NewFolders, folder: &Path) -> Result<()> {
 /// error.
 fn check_frame_markers(args: &Conversion, input: &Input, target: &Target) -> Result<()> {
     let numbered = target.files.iter().all(|file| matches!(file.files, ViewFiles::Sequence(_)));
+    if target.format.is_video() && numbered {
+        return Err(usage(format!(
+            "{} is a video, which holds all frames; name it without a frame marker, or name pictures, as in frames/####.png",
+            args.output
+        )));
+    }
     let takes_all = target.files.iter().all(|file| file.files.has_frames());
     if input.frames.len() > 1 && args.to_stream && !takes_all {
         return Err(usage(format!(
@@ -304,13 +335,12 @@ pub(crate) fn files_read(
 
 /// Checks that an output does not replace one of its own inputs.
 pub fn check_apart(path: &Path, inputs: &HashSet<PathBuf>) -> Result<()> {
-    if inputs.contains(&real_path(path)) {
-        return Err(usage_as(
-            Code::SameFile,
-            format!("{}: the output would replace its own input; choose another name", path.display()),
-        ));
-    }
-    Ok(())
+    if inputs.contains(&real_path(path)) { Err(is_input(path)) } else { Ok(()) }
+}
+
+/// Returns the error about an output that is an input.
+fn is_input(path: &Path) -> ConvertError {
+    usage_as(Code::SameFile, format!("{}: the output would replace its own input; choose another name", path.display()))
 }
 
 /// Resolves the links of a path, whether the file exists or not.
