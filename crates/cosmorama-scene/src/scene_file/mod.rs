@@ -472,7 +472,7 @@ spec = "perspective:fov=60"
             ("metallic = 1", "normal_scale = 2", &["line 12", "normal_texture"]),
             ("metallic = 1", "wrap = 'mirror'", &["line 12", "wrap is for pictures"]),
             ("metallic = 1", "ior = [1, 2, 3]", &["line 12", "ior is one number here"]),
-            ("spec = ", "from = ", &["line 30: unknown key `from`", "`image`, `spec`"]),
+            ("spec = ", "from = ", &["line 30: unknown key `from`", "expected `image` or `spec`"]),
             ("image = \"hills.exr\"\n", "", &["line 28", "image"]),
             ("image = \"hills.exr\"", "image = 3", &["line 29", "string"]),
             ("metallic = 1", "ior = 9", &["line 12", "9 is outside"]),
