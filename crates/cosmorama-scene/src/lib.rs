@@ -49,6 +49,6 @@ pub use model::{EXTENSIONS as MODEL_EXTENSIONS, Model, ModelCamera, ModelError, 
 pub use picture::{Background, backdrop, picture, picture_over};
 pub use ray::{Normal, Ray, RayChange};
 pub use scene::{Object, Part, Scene};
-pub use scene_file::{FileCamera, Located, NamedWorld, SceneFile, SceneFileError, SceneReader};
+pub use scene_file::{FileBackdrop, FileCamera, Located, NamedWorld, SceneFile, SceneFileError, SceneReader};
 pub use shade::{LightMaps, Proxy, Sky, Surroundings, Walls};
 pub use shape::{Face, Mesh, MeshError, Normals, Placing, Shape, Sphere};

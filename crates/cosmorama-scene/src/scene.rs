@@ -1,3 +1,4 @@
+use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_4;
 
 use cosmorama::camera::{PixelPoint, View};
@@ -108,6 +109,13 @@ impl Scene {
     /// Lists the materials of what stands under a world.
     pub(crate) fn materials_under(&self, world: usize) -> impl Iterator<Item = &Material> + Clone {
         self.parts().filter(move |part| part.world == world).map(|part| &part.material)
+    }
+
+    /// Returns the memory of the tables that chrome has, in bytes. A table that several parts share counts once.
+    pub fn chrome_bytes(&self) -> usize {
+        let tables: HashMap<_, _> =
+            self.parts().filter_map(|part| Some(part.material.chrome.as_ref()?.table())).collect();
+        tables.values().sum()
     }
 
     /// Checks that all balls and materials are in range.

@@ -59,17 +59,22 @@ impl Console {
 
     /// Tells of a diagnostic that does not stop the work. Notes are told only on request.
     pub(crate) fn warn(&self, diagnostic: &Diagnostic) {
-        self.tell(diagnostic, false);
+        self.tell(diagnostic, false, option);
     }
 
     /// Tells what a check found. If it failed, notes are told, too: one may say why.
     pub(crate) fn tell_all<T>(&self, outcome: &Outcome<T>) {
-        let has_failed = outcome.result.is_err();
-        outcome.diagnostics.iter().for_each(|diagnostic| self.tell(diagnostic, has_failed));
+        self.tell_all_as(outcome, option);
     }
 
-    fn tell(&self, diagnostic: &Diagnostic, is_for_all: bool) {
-        let text = self.told(&in_options(&diagnostic.message));
+    /// Tells what a check found, with settings by other names than those of options.
+    pub(crate) fn tell_all_as<T>(&self, outcome: &Outcome<T>, name: impl Fn(Setting) -> String) {
+        let has_failed = outcome.result.is_err();
+        outcome.diagnostics.iter().for_each(|diagnostic| self.tell(diagnostic, has_failed, &name));
+    }
+
+    fn tell(&self, diagnostic: &Diagnostic, is_for_all: bool, name: impl Fn(Setting) -> String) {
+        let text = self.told(&diagnostic.message.render(name));
         let is_note = diagnostic.severity == Severity::Note;
         let told = format!("{is_note} {is_for_all} {text}");
         if !self.said.lock().unwrap_or_else(PoisonError::into_inner).insert(told) {
@@ -141,10 +146,15 @@ fn escaped(text: &str) -> Cow<'_, str> {
 
 /// Returns a message in which settings are options of the command line.
 pub(crate) fn in_options(message: &Message) -> String {
-    message.render(|setting| match setting {
+    message.render(option)
+}
+
+/// Returns the option of a setting.
+pub(crate) fn option(setting: Setting) -> String {
+    match setting {
         Setting::Overwrite => "-y (--overwrite)".to_owned(),
         other => format!("--{}", other.name()),
-    })
+    }
 }
 
 #[cfg(test)]

@@ -110,6 +110,11 @@ impl Chrome {
         &self.highlights
     }
 
+    /// Returns the place of its table in memory, by which copies of one chrome are known, and its bytes.
+    pub(crate) fn table(&self) -> (*const (), usize) {
+        (self.entries.as_ptr().cast(), size_of_val::<[Entry]>(&self.entries))
+    }
+
     /// Averages the table over a footprint, and adds the lights.
     ///
     /// Over a pixel the elevation changes by a along one side and by b along the other, so that it is distributed as the

@@ -90,6 +90,15 @@ pub struct NamedWorld {
     pub proxy: Option<Proxy>,
 }
 
+/// World that a scene file has behind its things.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FileBackdrop {
+    /// Its image or pattern.
+    pub image: Located,
+    /// Its projection, if it is given.
+    pub spec: Option<Located>,
+}
+
 /// Value of a key of a scene file, and its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Located<T = String> {
@@ -194,6 +203,12 @@ impl SceneFile {
         }
     }
 
+    /// Returns the world that is seen behind the things, in place of the one that they stand under; `None` without a `[backdrop]`.
+    pub fn backdrop(&self) -> Option<FileBackdrop> {
+        let entry = self.written.backdrop.as_ref()?;
+        Some(FileBackdrop { image: self.image(&entry.image), spec: self.located(&entry.spec) })
+    }
+
     /// Lists the worlds of the file. Number 0 of the scene is the one beside it, and the first of these is number 1.
     ///
     /// # Errors
@@ -207,11 +222,9 @@ impl SceneFile {
                 Ok(Proxy { centre: value(&entry.centre).unwrap_or_default().into(), walls })
             };
             self.check_point("centre", &entry.centre)?;
-            let (image, place) =
-                (self.source.beside(entry.image.get_ref()), self.source.place(Some(entry.image.span())));
             Ok(NamedWorld {
                 name: name.clone(),
-                image: Located { value: image, place },
+                image: self.image(&entry.image),
                 spec: self.located(&entry.spec),
                 proxy: entry.proxy.as_ref().map(walls).transpose()?,
             })
@@ -300,6 +313,11 @@ impl SceneFile {
         self.written.light.iter().filter_map(|light| light.highlight().ok()).collect()
     }
 
+    /// Returns the name of an image from the program's own folder.
+    fn image(&self, image: &Spanned<String>) -> Located {
+        Located { value: self.source.beside(image.get_ref()), place: self.source.place(Some(image.span())) }
+    }
+
     fn located<T: Clone>(&self, key: &Key<T>) -> Option<Located<T>> {
         let located =
             |key: &Spanned<T>| Located { value: key.get_ref().clone(), place: self.source.place(Some(key.span())) };
@@ -375,6 +393,10 @@ scale = 0.5
 shape = "sphere"
 material = "glass"
 world = "room"
+
+[backdrop]
+image = "hills.exr"
+spec = "perspective:fov=60"
 "##;
 
     struct Nothing;
@@ -418,6 +440,9 @@ world = "room"
         assert_eq!(worlds[0].proxy.map(|proxy| proxy.centre), Some(centre));
         let eye = Located { value: [0.0, 1.0, 8.0], place: "a.toml, line 4".to_owned() };
         assert_eq!(file.camera().eye, Some(eye));
+        let at = |value: &str, line: usize| Located { value: value.to_owned(), place: format!("a.toml, line {line}") };
+        let backdrop = FileBackdrop { image: at("hills.exr", 29), spec: Some(at("perspective:fov=60", 30)) };
+        assert_eq!(file.backdrop(), Some(backdrop));
     }
 
     #[test]
@@ -447,6 +472,9 @@ world = "room"
             ("metallic = 1", "normal_scale = 2", &["line 12", "normal_texture"]),
             ("metallic = 1", "wrap = 'mirror'", &["line 12", "wrap is for pictures"]),
             ("metallic = 1", "ior = [1, 2, 3]", &["line 12", "ior is one number here"]),
+            ("spec = ", "from = ", &["line 30: unknown key `from`", "expected `image` or `spec`"]),
+            ("image = \"hills.exr\"\n", "", &["line 28", "image"]),
+            ("image = \"hills.exr\"", "image = 3", &["line 29", "string"]),
             ("metallic = 1", "ior = 9", &["line 12", "9 is outside"]),
             ("metallic = 1", "alpha = 1", &["line 12", "alpha is the square"]),
             ("metallic = 1", "surfaces = 3", &["line 12", "for the kind glass"]),

@@ -28,6 +28,7 @@ pub(super) fn place<T>(key: &Key<T>) -> Option<Range<usize>> {
 pub(super) struct Written {
     #[serde(default)]
     pub(super) camera: CameraEntry,
+    pub(super) backdrop: Option<BackdropEntry>,
     #[serde(default)]
     pub(super) world: BTreeMap<String, WorldEntry>,
     #[serde(default)]
@@ -46,6 +47,14 @@ pub(super) struct CameraEntry {
     pub(super) eye: Key<[f64; 3]>,
     pub(super) target: Key<[f64; 3]>,
     pub(super) size: Key<String>,
+}
+
+/// World that is seen behind the things.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct BackdropEntry {
+    pub(super) image: Spanned<String>,
+    pub(super) spec: Key<String>,
 }
 
 /// Another world.

@@ -85,6 +85,12 @@ impl LightMaps {
         })
     }
 
+    /// Returns the memory of the maps by roughness, and of their smaller copies, in bytes.
+    pub fn bytes(&self) -> usize {
+        let texels = |maps: &[(f64, LightMap)]| maps.iter().map(|(_, map)| map.world.texel_count()).sum::<usize>();
+        (texels(&self.exact) + texels(&self.chain)) * (size_of::<Rgba>() + size_of::<f32>()) * 4 / 3
+    }
+
     /// Returns the roughnesses that there are maps of.
     pub(super) fn alphas(&self) -> Alphas {
         let of = |maps: &[(f64, LightMap)]| maps.iter().map(|(alpha, _)| *alpha).collect();

@@ -204,8 +204,8 @@ pub(crate) struct ShadeArgs {
     #[arg(long, value_name = "WxH|N", allow_hyphen_values = true, help_heading = "Picture")]
     pub(crate) size: Option<Size>,
     /// world (default), transparent or a colour
-    #[arg(long, value_name = "COLOR", default_value = "world", hide_default_value = true, help_heading = "Picture")]
-    pub(crate) background: BackgroundName,
+    #[arg(long, value_name = "COLOR", help_heading = "Picture")]
+    pub(crate) background: Option<BackgroundName>,
     /// A world behind the things, in place of the one that they stand under
     ///
     /// Named like WORLD; builtin:NAME, too. Both are seen by the same camera.

@@ -1,4 +1,4 @@
-use anyhow::{Result, anyhow};
+use anyhow::Result;
 use cosmorama::raster::{Image, Rgba};
 use cosmorama_scene::{Background, Surroundings, backdrop};
 
@@ -18,10 +18,10 @@ impl<'a> Behind<'a> {
     /// Returns what was asked for, of the worlds that things stand under and the backdrop behind them, if there is one.
     pub(super) fn new(args: &ShadeArgs, worlds: &'a [Under]) -> Self {
         let background = match args.background {
-            BackgroundName::World => Background::World,
-            BackgroundName::Colour(colour) => Background::Colour(colour),
+            None | Some(BackgroundName::World) => Background::World,
+            Some(BackgroundName::Colour(colour)) => Background::Colour(colour),
         };
-        let number = if args.backdrop.is_some() { worlds.len() - 1 } else { 0 };
+        let number = worlds.iter().position(|world| world.behind.is_some()).unwrap_or(0);
         Self { background, number, world: &worlds[number] }
     }
 
@@ -31,19 +31,17 @@ impl<'a> Behind<'a> {
         const LEAST: f32 = 1e-3;
         let picture = |background: Background| backdrop(&shot.camera, &worlds[self.number], background);
         let made = picture(self.background);
-        if !self.world.is_partial {
-            return Ok(made);
-        }
+        let Some(behind) = self.world.behind.as_ref().filter(|behind| behind.is_partial) else { return Ok(made) };
         let all = picture(Background::Colour(Rgba::BLACK));
         let is_empty = |(seen, all): &(&Rgba, &Rgba)| seen.alpha() < all.alpha() - LEAST;
         let count = made.pixels().iter().zip(all.pixels()).filter(is_empty).count();
         if count == 0 {
             return Ok(made);
         }
-        Err(anyhow!(
-            "--backdrop: {} shows nothing in {count} of the picture's pixels; fill them with --missing COLOR, as --missing black, \
+        Err(behind.whence.failure(&format!(
+            "{} shows nothing in {count} of the picture's pixels; fill them with --missing COLOR, as --missing black, \
              or --missing transparent",
             self.world.name
-        ))
+        )))
     }
 }

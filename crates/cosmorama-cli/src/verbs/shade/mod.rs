@@ -25,6 +25,7 @@ use serde_json::json;
 
 use self::behind::Behind;
 use self::camera::{Shot, shots};
+use self::memory::{Lighting, needed};
 use self::output::Output;
 use self::things::Things;
 use self::turntable::frames;
@@ -56,9 +57,9 @@ pub(super) fn run(args: ShadeArgs, console: &mut Console) -> Result<ExitCode> {
     let lit = clock.lap();
     let filter =
         FilterSettings { kind: args.reflect.0, kernel: args.kernel.kernel, anti_ringing: args.kernel.anti_ringing };
-    let budget = MemoryBudget::new(args.limits.memory);
-    let needed =
-        budget.check_things(memory::needed(&lights, &shots, frames.len(), filter), pool.current_num_threads())?;
+    let lighting = Lighting { worlds: &lights, maps: &maps, filter };
+    let needed = MemoryBudget::new(args.limits.memory)
+        .check_things(needed(&things.scene, &lighting, &shots, frames.len()), pool.current_num_threads())?;
     let surroundings = |number: usize| {
         let made = Surroundings::new(skies[number], &maps[number], filter).map_err(wrong)?;
         let is_hidden = args.occlusion == OcclusionName::Ambient;

@@ -40,7 +40,7 @@ impl Output {
                 format.nearest_depth(if format.depths().contains(&Depth::Half) { Depth::Half } else { Depth::Eight })
             }
         };
-        let is_clear = matches!(args.background, BackgroundName::Colour(colour) if colour.alpha() < 1.0);
+        let is_clear = matches!(args.background, Some(BackgroundName::Colour(colour)) if colour.alpha() < 1.0);
         if is_clear && !format.nearest_channels(Channels::Rgba).has_alpha() {
             let message =
                 format!("--background: {} is {format}, which has no alpha; name the output .png or .exr", args.output);

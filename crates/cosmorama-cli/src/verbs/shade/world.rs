@@ -1,18 +1,18 @@
 use std::collections::HashSet;
 use std::path::PathBuf;
 
-use anyhow::Result;
+use anyhow::{Error, Result, anyhow};
 use cosmorama::camera::{CameraModel, LayoutFaceCamera, Placement};
 use cosmorama::raster::{Image, Primaries, Rgba};
 use cosmorama::sphere::CubeFace;
 use cosmorama::world::World;
 use cosmorama_builtin::BuiltinWorld;
-use cosmorama_convert::{Builtin, Conversion, GeometrySettings, Name, Radiance, WorldLight};
+use cosmorama_convert::{Builtin, Conversion, ConvertError, GeometrySettings, Name, Radiance, Setting, WorldLight};
 use cosmorama_io::FrameList;
 use cosmorama_spec::{Missing, Spec};
 
 use crate::args::{BackgroundName, ShadeArgs};
-use crate::console::Console;
+use crate::console::{Console, option};
 use crate::failure::usage;
 use crate::pipe::KeptStreams;
 
@@ -29,6 +29,50 @@ const NONE: &str = "none";
 /// Edge of the faces by which a built-in world is held.
 const EDGE: usize = 1024;
 
+/// Place where a world was asked for.
+#[derive(Clone)]
+pub(super) enum Whence {
+    /// By WORLD, or for a part.
+    World,
+    /// By `--backdrop`.
+    Backdrop,
+    /// By a scene file: its name, and the line.
+    File(String),
+}
+
+impl Whence {
+    /// Returns the name of a setting there.
+    pub(super) fn setting(&self, setting: Setting) -> String {
+        match (self, setting) {
+            (Self::Backdrop, Setting::From) => "--backdrop-from".to_owned(),
+            (Self::File(_), Setting::From) => "spec".to_owned(),
+            _ => option(setting),
+        }
+    }
+
+    /// Returns an error about the world, as one of what was written there.
+    pub(super) fn error(&self, error: Error) -> Error {
+        let found = error.downcast_ref::<ConvertError>();
+        let text = || found.map_or_else(|| error.to_string(), |found| found.message().render(|of| self.setting(of)));
+        match self {
+            Self::World => error,
+            Self::Backdrop if found.is_none_or(ConvertError::is_of_settings) => {
+                usage(format!("--backdrop: {}", text()))
+            }
+            Self::Backdrop | Self::File(_) => self.failure(&text()),
+        }
+    }
+
+    /// Returns an error that is none of usage.
+    pub(super) fn failure(&self, message: &str) -> Error {
+        match self {
+            Self::World => anyhow!("{message}"),
+            Self::Backdrop => anyhow!("--backdrop: {message}"),
+            Self::File(place) => anyhow!("{place}: {message}"),
+        }
+    }
+}
+
 /// A world as it was asked for.
 #[derive(Clone)]
 pub(super) struct Asked<'a> {
@@ -36,12 +80,13 @@ pub(super) struct Asked<'a> {
     pub(super) from: Option<Spec>,
     pub(super) frames: Option<FrameList>,
     pub(super) missing: Missing,
+    pub(super) whence: Whence,
 }
 
 impl<'a> Asked<'a> {
     /// Asks for a world beside the one that things stand under.
-    pub(super) fn of(name: &'a Name, from: Option<Spec>, args: &ShadeArgs) -> Self {
-        Self { name, from, frames: None, missing: args.missing }
+    pub(super) fn of(name: &'a Name, from: Option<Spec>, args: &ShadeArgs, whence: Whence) -> Self {
+        Self { name, from, frames: None, missing: args.missing, whence }
     }
 
     /// Returns whether no world is asked for.
@@ -59,7 +104,11 @@ impl WorldInput {
         match Builtin::named(asked.name)? {
             Some(Builtin::World(world)) if asked.from.is_none() && asked.frames.is_none() => Ok(Self::Formula(world)),
             Some(Builtin::World(_)) => {
-                Err(usage(format!("--from and --frames cannot be given for {}: a formula; leave them out", asked.name)))
+                let from = match asked.whence {
+                    Whence::World => "--from and --frames".to_owned(),
+                    other => other.setting(Setting::From),
+                };
+                Err(usage(format!("{from} cannot be given for {}: a formula; leave that out", asked.name)))
             }
             Some(Builtin::DirectionMap(_)) => {
                 Err(usage(format!("{} holds directions, but things need light; name a world", asked.name)))
@@ -80,7 +129,7 @@ impl WorldInput {
             ..Conversion::default()
         };
         let checked = conversion.files(kept.files()).check_light();
-        console.tell_all(&checked);
+        console.tell_all_as(&checked, |setting| asked.whence.setting(setting));
         Ok(Self::Files(Box::new(checked.result?)))
     }
 
@@ -114,7 +163,7 @@ fn without(args: &ShadeArgs) -> Result<WorldInput> {
     if !args.material.is_chrome() || args.dc.unwrap_or(0.0) > 0.0 {
         return Err(usage("without a world there is only chrome: name a world, or give --material chrome and no --dc"));
     }
-    if args.background == BackgroundName::World && args.backdrop.is_none() {
+    if args.background.is_none_or(|background| background == BackgroundName::World) && args.backdrop.is_none() {
         return Err(usage(
             "without a world there is no background; add --background black, transparent or a --backdrop",
         ));

@@ -2,21 +2,28 @@ use std::path::PathBuf;
 
 use anyhow::{Error, Result, anyhow};
 use cosmorama::raster::Rgba;
-use cosmorama_convert::{Code, ConvertError, Name, Radiance, Setting};
-use cosmorama_scene::{Located, NamedWorld, Proxy};
+use cosmorama_convert::{Code, ConvertError, Name, Radiance};
+use cosmorama_scene::{FileBackdrop, Located, NamedWorld, Proxy, SceneFile};
 use cosmorama_spec::{Missing, Spec, did_you_mean};
 
 use super::things::Things;
-use super::world::{Asked, WorldInput};
+use super::world::{Asked, Whence, WorldInput};
 use crate::args::ShadeArgs;
 use crate::console::Console;
-use crate::failure::{message, usage};
+use crate::failure::usage;
 
 /// A world that things stand under, checked but not read.
 pub(super) struct Under {
     pub(super) name: Name,
     pub(super) input: WorldInput,
     pub(super) proxy: Option<Proxy>,
+    /// Facts of the backdrop, if it is that.
+    pub(super) behind: Option<Behind>,
+}
+
+/// A world that is seen behind the things.
+pub(super) struct Behind {
+    pub(super) whence: Whence,
     /// Whether it does not show all directions, and is empty there.
     pub(super) is_partial: bool,
 }
@@ -24,12 +31,10 @@ pub(super) struct Under {
 /// Finds the files of all worlds: that of the picture, those of the scene file, and those of single parts, which the parts
 /// are told of. The last is the backdrop, if there is one.
 pub(super) fn worlds(args: &ShadeArgs, things: &mut Things, console: &mut Console) -> Result<Vec<Under>> {
-    let asked =
-        Asked { name: &args.world, from: args.from.clone(), frames: args.frames.clone(), missing: args.missing };
+    let asked = Asked { frames: args.frames.clone(), ..Asked::of(&args.world, args.from.clone(), args, Whence::World) };
     let proxy =
         args.proxy.map(|walls| Proxy { centre: args.centre.map_or([0.0; 3], |point| point.0).into(), walls: walls.0 });
-    let main =
-        Under { name: args.world.clone(), input: WorldInput::check(asked, args, console)?, proxy, is_partial: false };
+    let main = Under { name: args.world.clone(), input: WorldInput::check(asked, args, console)?, proxy, behind: None };
     let mut worlds = vec![main];
     for world in &things.worlds {
         worlds.push(of_file(world, args, console)?);
@@ -39,22 +44,44 @@ pub(super) fn worlds(args: &ShadeArgs, things: &mut Things, console: &mut Consol
         let known = worlds.iter().position(|under| under.name == world);
         let number = known.unwrap_or(worlds.len());
         if known.is_none() {
-            let input = WorldInput::check(Asked::of(&world, None, args), args, console)?;
-            worlds.push(Under { name: world, input, proxy: None, is_partial: false });
+            let input = WorldInput::check(Asked::of(&world, None, args, Whence::World), args, console)?;
+            worlds.push(Under { name: world, input, proxy: None, behind: None });
         }
         give(things, &part.name, number)?;
     }
-    if let Some(name) = &args.backdrop {
-        worlds.push(backdrop(name, args, console)?);
+    if let Some(wanted) = asked_backdrop(args, things)? {
+        worlds.push(backdrop(wanted, args, console)?);
     }
     Ok(worlds)
 }
 
+/// The world that is to be seen behind the things.
+struct AskedBackdrop {
+    name: Name,
+    from: Option<Spec>,
+    whence: Whence,
+}
+
+/// Returns the backdrop that was asked for: by options, or by the scene file where no option says what is behind.
+fn asked_backdrop(args: &ShadeArgs, things: &Things) -> Result<Option<AskedBackdrop>> {
+    if let Some(name) = &args.backdrop {
+        let from = args.backdrop_from.clone();
+        return Ok(Some(AskedBackdrop { name: name.clone(), from, whence: Whence::Backdrop }));
+    }
+    let file = things.file.as_ref().and_then(SceneFile::backdrop).filter(|_| args.background.is_none());
+    let asked = |FileBackdrop { image, spec }: FileBackdrop| {
+        let from = spec.as_ref().map(parsed).transpose()?;
+        Ok(AskedBackdrop { name: Name::from(&image.value), from, whence: Whence::File(image.place) })
+    };
+    file.map(asked).transpose()
+}
+
 /// Finds the files of the world that is seen behind the things.
-fn backdrop(name: &Name, args: &ShadeArgs, console: &mut Console) -> Result<Under> {
-    let asked = Asked::of(name, args.backdrop_from.clone(), args);
+fn backdrop(wanted: AskedBackdrop, args: &ShadeArgs, console: &mut Console) -> Result<Under> {
+    let AskedBackdrop { name, from, whence } = wanted;
+    let asked = Asked::of(&name, from, args, whence.clone());
     if asked.is_none() {
-        return Err(usage("--backdrop: none is no world; name one, or give --background black"));
+        return Err(whence.error(anyhow!("none is no world; name one, or give --background black")));
     }
     let empty = Asked { missing: Missing::Fill(Rgba::TRANSPARENT), ..asked.clone() };
     // Of directions that it does not show, the picture may show none: that is checked when it is made.
@@ -62,8 +89,8 @@ fn backdrop(name: &Name, args: &ShadeArgs, console: &mut Console) -> Result<Unde
         Err(error) if is_uncovered(&error) => (WorldInput::check(empty, args, console), true),
         checked => (checked, false),
     };
-    let input = input.map_err(|error| of_backdrop(&error))?;
-    Ok(Under { name: name.clone(), input, proxy: None, is_partial })
+    let input = input.map_err(|error| whence.error(error))?;
+    Ok(Under { name, input, proxy: None, behind: Some(Behind { whence, is_partial }) })
 }
 
 /// Returns whether a world does not show all directions.
@@ -71,34 +98,17 @@ fn is_uncovered(error: &Error) -> bool {
     error.downcast_ref::<ConvertError>().is_some_and(|error| error.code() == Code::Uncovered)
 }
 
-/// Returns an error about an input as one about the backdrop.
-fn of_backdrop(error: &Error) -> Error {
-    let option = |setting: Setting| match setting {
-        Setting::From => "--backdrop-from".to_owned(),
-        other => format!("--{}", other.name()),
-    };
-    match error.downcast_ref::<ConvertError>() {
-        Some(found) => of_kind(found.is_of_settings(), found.message().render(option)),
-        None => usage(format!("--backdrop: {error}")),
-    }
-}
-
-/// Makes an error of usage, or one of a file.
-fn of_kind(is_usage: bool, message: String) -> Error {
-    let message = format!("--backdrop: {message}");
-    if is_usage { usage(message) } else { Error::msg(message) }
+/// Reads a projection of the scene file.
+fn parsed(spec: &Located) -> Result<Spec> {
+    spec.value.parse().map_err(|error| anyhow!("{}: spec = \"{}\": {error}", spec.place, spec.value))
 }
 
 fn of_file(world: &NamedWorld, args: &ShadeArgs, console: &mut Console) -> Result<Under> {
-    let spec = |spec: &Located| -> Result<Spec> {
-        spec.value.parse().map_err(|error| anyhow!("{}: spec = \"{}\": {error}", spec.place, spec.value))
-    };
-    let from = world.spec.as_ref().map(spec).transpose()?;
-    let name = Name::from(&world.image.value);
-    let asked = Asked::of(&name, from, args);
-    let placed = |error| anyhow!("{}: {}", world.image.place, message(&error));
-    let input = WorldInput::check(asked, args, console).map_err(placed)?;
-    Ok(Under { name, input, proxy: world.proxy, is_partial: false })
+    let from = world.spec.as_ref().map(parsed).transpose()?;
+    let (name, whence) = (Name::from(&world.image.value), Whence::File(world.image.place.clone()));
+    let asked = Asked::of(&name, from, args, whence.clone());
+    let input = WorldInput::check(asked, args, console).map_err(|error| whence.error(error))?;
+    Ok(Under { name, input, proxy: world.proxy, behind: None })
 }
 
 /// Puts the things of a name under a world.

@@ -367,6 +367,97 @@ fn a_backdrop_is_seen_behind_things_and_nowhere_else() {
 }
 
 #[test]
+fn a_scene_file_has_a_backdrop_and_options_go_before() {
+    let bench = Bench::new();
+    bench.save("red.exr", &crate::bench::floats(64, 32, |_, _| [1.0, 0.0, 0.0]));
+    bench.save("green.exr", &crate::bench::floats(64, 32, |_, _| [0.0, 1.0, 0.0]));
+    bench.save("plate.exr", &crate::bench::floats(64, 40, |_, _| [0.0, 0.0, 1.0]));
+    let things = "[camera]\nprojection = 'perspective:fov=60'\neye = [0, 0, 6]\ntarget = [0, 0, 0]\nsize = '64x40'\n\
+                  [[object]]\nshape = 'sphere'\n[backdrop]\n";
+    let args = ["shade", "red.exr", "ball.exr", "--scene", "scene.toml", "-y"];
+    let write = |backdrop: &str| std::fs::write(bench.path("scene.toml"), format!("{things}{backdrop}")).unwrap();
+    let corner = |options: &[&str]| {
+        bench.succeed(&[&args[..], options].concat());
+        let made = light(&bench, "ball.exr");
+        // The ball mirrors its own world.
+        assert!((made.get(32, 20).0[0] - 1.0).abs() < 1e-3, "{:?}", made.get(32, 20));
+        made.get(1, 1).0.map(|part| (part * 100.0).round())
+    };
+    write("image = 'green.exr'\n");
+    assert_eq!(corner(&[]), [0.0, 100.0, 0.0, 100.0]);
+    // Its files are read, and not written upon.
+    assert_says(&bench.fail(2, &[&args[..2], &["green.exr"], &args[3..]].concat()), &["green.exr"]);
+    write("image = 'plate.exr'\nspec = 'perspective:fov=80'\n");
+    assert_eq!(corner(&[]), [0.0, 0.0, 100.0, 100.0]);
+    assert_eq!(corner(&["--backdrop", "green.exr"]), [0.0, 100.0, 0.0, 100.0]);
+    assert_eq!(corner(&["--background", "black"]), [0.0, 0.0, 0.0, 100.0]);
+    assert_eq!(corner(&["--background", "world"]), [100.0, 0.0, 0.0, 100.0]);
+    for (backdrop, says) in [
+        ("image = 'lost.exr'\n", &["line 9: ", "lost.exr"][..]),
+        ("image = 'none'\n", &["line 9", "none is no world"]),
+        ("image = 'plate.exr'\n", &["line 9", "plate.exr", "give spec "]),
+        (
+            "image = 'plate.exr'\nspec = 'perspektive:fov=80'\n",
+            &["line 10: spec = \"perspektive:fov=80\"", "perspective"],
+        ),
+        ("image = 'plate.exr'\nspec = 'perspective:fov=30'\n", &["line 9: ", "shows nothing in", "--missing black"]),
+        ("image = 'builtin:grid'\nspec = 'equirect'\n", &["line 9: spec cannot be given for builtin:grid"]),
+        ("imag = 'green.exr'\n", &["line 9: unknown key `imag`", "did you mean 'image'?"]),
+        ("spec = 'equirect'\n", &["line 8", "image"]),
+    ] {
+        write(backdrop);
+        let error = bench.fail(1, &args);
+        assert_says(&error, &[&["scene.toml, "], says].concat());
+        assert!(!error.contains("--backdrop") && !error.contains("--from"), "{error}");
+    }
+}
+
+/// Returns what is told of a ball under a panorama to who asks.
+fn notes(bench: &Bench, args: &[&str]) -> String {
+    let output = bench.run(&[&["shade", "sky.exr", "ball.exr", "--size", "32", "-y", "-v"], args].concat());
+    assert!(output.status.success());
+    String::from_utf8(output.stderr).unwrap()
+}
+
+#[test]
+fn a_guessed_projection_is_told_by_the_name_of_its_setting() {
+    let bench = Bench::new();
+    bench.save("sky.exr", &crate::bench::floats(64, 32, |_, _| [1.0; 3]));
+    bench.save("map.exr", &crate::bench::floats(64, 32, |_, _| [0.5; 3]));
+    let told = notes(&bench, &["--backdrop", "map.exr"]);
+    assert_says(&told, &["sky.exr is taken for a panorama (--from equirect)", "(--backdrop-from equirect)"]);
+    let scene = "[world.room]\nimage = 'map.exr'\n[[object]]\nshape = 'sphere'\nworld = 'room'\n";
+    std::fs::write(bench.path("scene.toml"), scene).unwrap();
+    let told = notes(&bench, &["--scene", "scene.toml"]);
+    assert_says(&told, &["map.exr is taken for a panorama (spec equirect)"]);
+}
+
+#[test]
+fn tables_of_chrome_and_maps_count_as_memory() {
+    let bench = Bench::new();
+    bench.save("sky.exr", &crate::bench::floats(64, 32, |_, _| [1.0; 3]));
+    let estimated = |scene: &str| {
+        std::fs::write(bench.path("scene.toml"), scene).unwrap();
+        let args = ["shade", "sky.exr", "ball.exr", "--scene", "scene.toml", "--size", "32", "-y", "--json"];
+        let report: serde_json::Value = serde_json::from_str(&bench.succeed(&args)).unwrap();
+        report["estimated_memory_bytes"].as_u64().unwrap()
+    };
+    let balls = |materials: &[&str]| -> String {
+        let ball = |material: &&str| format!("[[object]]\nshape = 'sphere'\nmaterial = '{material}'\n");
+        let colour = |k: usize| format!("[material.c{k}]\nkind = 'chrome'\nchrome = '0=0,0,{k}'\n");
+        materials.iter().map(ball).chain((1..4).map(colour)).collect()
+    };
+    let [one, three, shared] =
+        [&["c1"][..], &["c1", "c2", "c3"], &["c1", "c1", "c1"]].map(|names| estimated(&balls(names)));
+    // Each table has 3,073 entries of nine doubles.
+    assert_eq!((three - one, shared - one), (2 * 3073 * 72, 0));
+    let rough = |roughness: &str| {
+        estimated(&format!("[material.m]\nroughness = {roughness}\n[[object]]\nshape = 'sphere'\nmaterial = 'm'\n"))
+    };
+    assert!(rough("0.3") > rough("0.0") + 6 * 50 * 50 * 16);
+}
+
+#[test]
 fn mistakes_of_scene_files_name_the_line_of_the_key() {
     let bench = Bench::new();
     bench.save("sky.exr", &crate::bench::floats(64, 32, |_, _| [1.0; 3]));
