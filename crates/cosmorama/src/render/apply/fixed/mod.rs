@@ -107,6 +107,9 @@ impl WindowArithmetic for FixedArithmetic<'_> {
         canvas: &mut Canvas<[u8; 3]>,
     ) {
         let codes = LookUp(self.codec.codes());
+        // Other processors have no faster way to write.
+        #[cfg(not(target_arch = "x86_64"))]
+        let _ = simd;
         #[cfg(target_arch = "x86_64")]
         if let Some(level) = simd.level().as_avx512()
             && codes.0.are_srgb()
