@@ -25,6 +25,12 @@ use crate::world::World;
 use cells::{Cell, Cells, Frame, SIDE};
 use taps::{BEFORE, Interpolation, REACH, SHORT, Taps, blur};
 
+/// As many times more samples are needed where a kernel is as wide as it is because texels are: it leaves some of their lattice.
+const LATTICE: f64 = 1.75;
+
+/// Part of a pixel that counts as the kernel's unit at least, there.
+const NEAR: f64 = 0.95;
+
 /// Part of the view's points for which this density is enough; elsewhere pixels are finer.
 const MOST: f64 = 0.75;
 
@@ -365,11 +371,12 @@ fn units(lens: &View, point: PixelPoint, axis: DVec3, (world, filter): (&World, 
     let along = direction.cross(axis);
     let (cosine, along) = (along.length(), along.try_normalize()?);
     let texel = world.owner(seen).and_then(|(view, at)| world.sources()[view].view.texel(at));
-    // Length of the kernel's unit, in radians.
+    // Length of the kernel's unit, in radians, or of what asks for more samples than that.
     let unit = |tangent: DVec3| {
         let pixels = pixel.pseudo_inverse(tangent).map_or(f64::INFINITY, DVec2::length);
         let texels = texel.and_then(|texel| texel.pseudo_inverse(tangent)).map_or(f64::INFINITY, DVec2::length);
-        (filter.kernel.scale / pixels).max(filter.kernel.floor / texels)
+        let unit = (filter.kernel.scale / pixels).max(filter.kernel.floor / texels);
+        unit.min((unit / LATTICE).max(NEAR / pixels))
     };
     Some([cosine / unit(along), 1.0 / unit(along.cross(direction))])
 }

@@ -51,7 +51,7 @@ pub(super) struct Interpolation {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Weights {
     pub(super) long: [f32; REACH],
-    /// Those of the samples in the middle.
+    /// Weights of the samples in the middle.
     pub(super) short: [f32; SHORT],
 }
 
