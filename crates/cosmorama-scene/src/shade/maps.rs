@@ -10,6 +10,7 @@ use cosmorama::world::{Light, World};
 
 use super::Sky;
 use super::albedo_table::AlbedoTable;
+use super::facets::LobePart;
 use super::rough::Alphas;
 use crate::error::SceneError;
 use crate::material::Material;
@@ -55,7 +56,7 @@ impl LightMaps {
         let unseen = unseen.unwrap_or(Rgba::TRANSPARENT);
         scene.check()?;
         let materials = || scene.materials_under(number);
-        let alphas = Alphas::of(materials().filter_map(Material::alphas));
+        let alphas = Alphas::of(materials().flat_map(LobePart::ranges));
         let is_matt = materials().any(Material::is_matt);
         light.check(world)?;
         let cube = if alphas.mirror { LightMap::cube(&sky) } else { None };
