@@ -32,6 +32,9 @@ pub struct Moment {
     pub weight: f64,
 }
 
+/// Weights of the outermost moments, from either end inward: 1 + (2, −3, 1)/24.
+const ENDS: [f64; 3] = [26.0 / 24.0, 21.0 / 24.0, 25.0 / 24.0];
+
 /// Part of a trapezoid's time in which it opens, and in which it closes.
 const RAMP: f64 = 0.25;
 
@@ -74,12 +77,16 @@ impl Shutter {
     }
 
     /// Divides an exposure into moments of equal length, each at its middle. Their weights sum to one.
+    ///
+    /// The middles alone err by h²/24 times the difference of the slopes at both ends (Euler and Maclaurin), h being a moment's length: a lamp's
+    /// streak shows that at its ends. So the weights of the outer three take it off, by the slope of the parabola through them.
     pub fn moments(&self, frame: f64, count: usize) -> Vec<Moment> {
         let [open, _] = self.interval(frame);
         let part = |k: usize| (k as f64 + 0.5) / count as f64;
-        let total: f64 = (0..count).map(|k| self.curve.light(part(k))).sum();
-        let moment =
-            |k: usize| Moment { time: open + self.fraction * part(k), weight: self.curve.light(part(k)) / total };
+        let end = |k: usize| ENDS.get(k.min(count - 1 - k)).filter(|_| count >= 2 * ENDS.len()).copied().unwrap_or(1.0);
+        let light = |k: usize| self.curve.light(part(k)) * end(k);
+        let total: f64 = (0..count).map(light).sum();
+        let moment = |k: usize| Moment { time: open + self.fraction * part(k), weight: light(k) / total };
         (0..count).map(moment).collect()
     }
 }
@@ -92,6 +99,17 @@ mod tests {
     fn the_phase_places_the_interval() {
         let with = |phase| Shutter { phase, ..Shutter::centred(0.5) }.interval(10.0);
         assert_eq!([with(0.5), with(0.0), with(1.0)], [[9.75, 10.25], [10.0, 10.5], [9.5, 10.0]]);
+    }
+
+    #[test]
+    fn moments_sum_smooth_light_to_the_fourth_order() {
+        let shutter = Shutter::centred(1.0);
+        let error = |count: usize| {
+            let sum: f64 = shutter.moments(0.5, count).iter().map(|m| m.weight * m.time.exp()).sum();
+            (sum - (1f64.exp() - 1.0)).abs()
+        };
+        // Twice as many are sixteen times nearer.
+        assert!(error(8) < 4e-5 && error(16) < error(8) / 12.0, "{} and {}", error(8), error(16));
     }
 
     #[test]

@@ -251,16 +251,20 @@ mod tests {
             ([1.5, 0.5, 3.0], ShutterCurve::Cosine),
             ([0.0, 0.0, 20.0], ShutterCurve::Box),
         ];
-        let (world, light) = world(false);
-        for (angles, curve) in cases {
-            let view = |time: f64| camera().turned(turn(angles).pose(time).orientation);
-            let few = exposure(view, curve, 64);
-            let (found, expected) = (swept(&few, &world, &light), summed(&exposure(view, curve, 1024), &world, &light));
-            let ((worst, peak), certain) = (worst(&found, &expected), certain(&few, &world, &light));
-            assert!(worst < peak / 500.0, "{angles:?}, {curve:?}: {worst} of {peak}");
-            assert!(certain > 0.5, "{angles:?}: {certain} by rings");
-            let energy = sum(&found, |_, _| 1.0) / sum(&expected, |_, _| 1.0);
-            assert!((energy - 1.0).abs() < 1e-3, "{angles:?}: {energy}");
+        for has_sun in [false, true] {
+            let (world, light) = world(has_sun);
+            for (angles, curve) in cases {
+                let view = |time: f64| camera().turned(turn(angles).pose(time).orientation);
+                let shutter = Shutter { curve, ..Shutter::centred(1.0) };
+                let few = Exposure::of(view, &shutter, 0.5, world.texel_pitch());
+                let (found, expected) =
+                    (swept(&few, &world, &light), summed(&exposure(view, curve, 1024), &world, &light));
+                let ((worst, peak), certain) = (worst(&found, &expected), certain(&few, &world, &light));
+                assert!(worst < peak / 500.0, "{angles:?}, {curve:?}: {worst} of {peak}");
+                assert!(certain > 0.5, "{angles:?}: {certain} by rings");
+                let energy = sum(&found, |_, _| 1.0) / sum(&expected, |_, _| 1.0);
+                assert!((energy - 1.0).abs() < 1e-3, "{angles:?}: {energy}");
+            }
         }
     }
 

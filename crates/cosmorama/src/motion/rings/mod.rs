@@ -37,7 +37,7 @@ const MOST: f64 = 0.75;
 /// Light of a shutter by the angle of the turn.
 #[derive(Clone, Debug)]
 pub(super) enum Profile {
-    /// Over a turn in moments of equal length, each given by the angle at its middle, and a weight.
+    /// At some angles, each with a weight.
     Moments(Vec<(f64, f64)>),
     /// A Gaussian of this mean and standard deviation.
     Gaussian { mean: f64, deviation: f64 },
@@ -61,8 +61,8 @@ impl Profile {
         // What is seen under a positive angle about the axis lies to the left.
         match self {
             Self::Moments(moments) => {
-                let offset = |(angle, weight): (f64, f64)| (-angle * density, weight);
-                Taps::at(&evenly(moments).map(offset).collect::<Vec<_>>())
+                let offset = |(angle, weight): &(f64, f64)| (-angle * density, *weight);
+                Taps::at(&moments.iter().map(offset).collect::<Vec<_>>())
             }
             Self::Gaussian { mean, deviation } => {
                 // Half a sample, or less than the Gaussian itself, from one to the next.
@@ -75,31 +75,6 @@ impl Profile {
             }
         }
     }
-}
-
-/// Parts into which [`evenly`] divides a moment.
-const PARTS: usize = 4;
-
-/// Divides moments in time, each of which stands for the turn from half way after the one before to half way to the next.
-fn evenly(moments: &[(f64, f64)]) -> impl Iterator<Item = (f64, f64)> + '_ {
-    let angle = |k: usize| moments[k].0;
-    let last = moments.len() - 1;
-    (0..moments.len()).flat_map(move |k| {
-        let steps = [angle(k) - angle(k.saturating_sub(1)), angle((k + 1).min(last)) - angle(k)];
-        // The first moment is as long before its middle as after it, and so is the last.
-        let steps = if k == 0 {
-            [steps[1]; 2]
-        } else if k == last {
-            [steps[0]; 2]
-        } else {
-            steps
-        };
-        let part = move |part: usize| {
-            let t = (part as f64 + 0.5) / PARTS as f64 - 0.5;
-            (angle(k) + t * if t < 0.0 { steps[0] } else { steps[1] }, moments[k].1 / PARTS as f64)
-        };
-        (0..PARTS).map(part)
-    })
 }
 
 /// Light along the rings of a turning view.
