@@ -61,7 +61,7 @@ impl Cells {
 
     /// Returns the least and the greatest coordinates of all places.
     pub(super) fn bounds(&self) -> Option<[[f64; 2]; 2]> {
-        self.cells.iter().filter_map(Cell::bounds).reduce(|a, b| joined(a, b))
+        self.cells.iter().filter_map(Cell::bounds).reduce(joined)
     }
 }
 

@@ -198,7 +198,7 @@ impl<'a> Rings<'a> {
             let is_wanted = |column: &usize| self.wanted.holds([*column, row]);
             let mut patches = (0..width).step_by(SIDE).filter(is_wanted);
             let Some(first) = patches.next() else { return };
-            let end = (patches.last().unwrap_or(first) + SIDE).min(width);
+            let end = (patches.next_back().unwrap_or(first) + SIDE).min(width);
             padded.clear();
             padded.extend((0..room as i64).map(|at| {
                 let column = at - before;
