@@ -67,6 +67,15 @@ impl<'a> Behind<'a> {
         Ok(())
     }
 
+    /// Asks something of the backdrop's own frame at a place among all, and of its light.
+    pub(super) fn ask<T>(
+        &self,
+        place: usize,
+        question: impl FnOnce(&Engine<'a>, &FrameLight) -> Result<T>,
+    ) -> Result<T> {
+        question(&self.engine, &self.read(self.engine.job.input.frames[place])?.light)
+    }
+
     /// Reads the light of a frame, unless it is held.
     fn read(&self, frame: Option<u64>) -> Result<MutexGuard<'_, Held>> {
         let (job, pool, mut held) = (self.engine.job, self.engine.pool(), lock(&self.held));

@@ -41,8 +41,11 @@ impl Engine<'_> {
         let passes = job.layers.groups.len();
         let share = Share { whole: progress, from: 0.0, to: 1.0 / (1 + passes) as f64 };
         let exposed = Exposed { moments, blur, time: time(frame.frame.unwrap_or_default()) };
+        let is_at_once = || self.is_swept_at_once((job.place(frame.frame), light), moments);
         let pictures = match blur.method {
-            BlurMethod::Swept if self.is_swept_at_once(light) => self.swept_at_once(frame, light, &exposed, &share)?,
+            BlurMethod::Swept if job.has_room_for_rings && is_at_once()? => {
+                self.swept_at_once(frame, light, &exposed, &share)?
+            }
             BlurMethod::Swept => self.swept(frame, (light, moments), &share)?,
             BlurMethod::Ellipse => self.ellipse(frame, light, &exposed, &share)?,
         };
@@ -67,11 +70,22 @@ impl Engine<'_> {
         sheets.flat_map(|sheet| &sheet.pieces).map(|(index, _)| &self.job.target.views[*index].view).collect()
     }
 
-    /// Returns whether the moments of a frame may be rendered together: nothing is done with their pictures but to sum them.
-    fn is_swept_at_once(&self, light: &FrameLight) -> bool {
+    /// Returns whether the moments of a frame may be rendered together: nothing is done with their pictures but to sum them, and to lay
+    /// what goes with the camera before them. `place` is that of the frame among all.
+    fn is_swept_at_once(&self, (place, light): (usize, &FrameLight), moments: &[Moment]) -> Result<bool> {
         let job = self.job;
+        if let Some(behind) = &self.behind {
+            let rests = self.rests(moments);
+            return Ok(rests && behind.ask(place, |engine, light| engine.is_swept_at_once((place, light), moments))?);
+        }
         let is_sampled = job.filter.kind == FilterKind::Ewa && job.formula.is_none() && !job.is_balance_asked_for();
-        job.has_room_for_rings && is_sampled && self.is_solid() && self.is_complete(light)
+        Ok(is_sampled && self.is_solid() && self.is_complete(light))
+    }
+
+    /// Returns whether the camera sees the input in one pose at all moments.
+    fn rests(&self, moments: &[Moment]) -> bool {
+        let Some(movement) = &self.job.movement else { return true };
+        moments.windows(2).all(|pair| movement.pose(pair[0].time) == movement.pose(pair[1].time))
     }
 
     /// Renders each view through the open shutter.
@@ -82,17 +96,39 @@ impl Engine<'_> {
         exposed: &Exposed,
         progress: &dyn Progress,
     ) -> Result<Vec<Levels>> {
-        let layer = self.layer(frame, progress)?;
-        let mut shares = self.shares(progress, frame, 1);
+        let mut layer = self.layer(frame, progress)?;
+        let mut shares = self.shares(progress, frame, self.layers());
         self.pictures_of(frame, |index| {
-            let share = shares.next(&layer.posed.views[index].view);
-            let (world, texels) = self.world_of(&layer.posed.views[index], light)?;
-            let exposure = self.exposure(index, exposed)?;
-            let made = exposure.swept((world, self.job.filter), texels, &share);
-            let mut image = made.map_err(|Stopped| self.stopped())?;
+            let mut image = self.swept_view(index, (frame.frame, light), (&mut layer, exposed), &mut shares)?;
             self.lay_background((&layer.posed, index), &mut image);
             Ok(image)
         })
+    }
+
+    /// Renders a view of the target through the open shutter, with what lies behind it, over nothing. What goes with the camera is
+    /// rendered once: the mean of what it lets through is the mean of what lies behind, let through once.
+    fn swept_view(
+        &self,
+        index: usize,
+        (frame, light): (Option<u64>, &FrameLight),
+        (layer, exposed): (&mut Layer, &Exposed),
+        shares: &mut Shares,
+    ) -> Result<Image<Rgba>> {
+        if let Some(behind) = &self.behind {
+            let mut image = self.alone(index, (frame, light), layer, shares)?;
+            if let Some(layer) = &mut layer.behind {
+                let view = &self.job.target.views[index].view;
+                behind.lay_under((view, &mut image), layer.place, |engine, light| {
+                    engine.swept_view(index, light, (layer, exposed), shares)
+                })?;
+            }
+            return Ok(image);
+        }
+        let target = &layer.posed.views[index];
+        let share = shares.next(&target.view);
+        let (world, texels) = self.world_of(target, light)?;
+        let made = self.exposure(index, exposed)?.swept((world, self.job.filter), texels, &share);
+        made.map_err(|Stopped| self.stopped())
     }
 
     /// Sums the pictures of all moments, each weighed by its part of the light: every pixel goes its own way.

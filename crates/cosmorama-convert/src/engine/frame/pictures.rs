@@ -422,16 +422,28 @@ impl<'a> Engine<'a> {
         layer: &mut Layer,
         shares: &mut Shares,
     ) -> Result<Image<Rgba>> {
-        let mut image = self.filtered(index, (light, Rgba::TRANSPARENT), layer, shares)?;
-        self.close_holes((&layer.posed, index), (frame, light), &mut image)?;
-        self.fill_unseen((&layer.posed, index), light, &mut image)?;
-        self.thin(&mut image);
+        let mut image = self.alone(index, (frame, light), layer, shares)?;
         if let (Some(behind), Some(layer)) = (&self.behind, &mut layer.behind) {
             let view = &self.job.target.views[index].view;
             behind.lay_under((view, &mut image), layer.place, |engine, light| {
                 engine.layered(index, light, layer, shares)
             })?;
         }
+        Ok(image)
+    }
+
+    /// Renders a view of the target, without what lies behind it, over nothing.
+    pub(super) fn alone(
+        &self,
+        index: usize,
+        (frame, light): (Option<u64>, &FrameLight),
+        layer: &mut Layer,
+        shares: &mut Shares,
+    ) -> Result<Image<Rgba>> {
+        let mut image = self.filtered(index, (light, Rgba::TRANSPARENT), layer, shares)?;
+        self.close_holes((&layer.posed, index), (frame, light), &mut image)?;
+        self.fill_unseen((&layer.posed, index), light, &mut image)?;
+        self.thin(&mut image);
         Ok(image)
     }
 
