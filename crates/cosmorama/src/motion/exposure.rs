@@ -1,7 +1,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::strip::CELL;
+use super::marks::{CELL, Marks};
 use super::{LightSum, Moment, Shutter};
 use crate::camera::{Covariance, Footprint, PixelPoint, View};
 use crate::filter::{CrossSection, Ewa, Kernel, Prepared};
@@ -129,11 +129,12 @@ impl Exposure {
         image
     }
 
-    /// Averages the world for each pixel of the marked cells, of 8 × 8 pixels.
-    pub(super) fn fill_by_ellipses(&self, image: &mut Image<Rgba>, is_marked: &[bool], prepared: &dyn Prepared) {
-        let (width, across) = (image.width(), image.width().div_ceil(CELL));
+    /// Averages the world for each pixel of the marked cells.
+    pub(super) fn fill_by_ellipses(&self, image: &mut Image<Rgba>, marks: &Marks, prepared: &dyn Prepared) {
+        let width = image.width();
         image.pixels_mut().par_chunks_mut(width.max(1)).enumerate().for_each(|(j, row)| {
-            for (i, pixel) in row.iter_mut().enumerate().filter(|(i, _)| is_marked[j / CELL * across + i / CELL]) {
+            let marks = marks.row(j);
+            for (i, pixel) in row.iter_mut().enumerate().filter(|(i, _)| marks[i / CELL]) {
                 *pixel = self.ellipse_at([i, j], prepared);
             }
         });

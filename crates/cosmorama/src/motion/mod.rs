@@ -25,9 +25,9 @@
 
 mod exposure;
 mod light_sum;
+mod marks;
 mod rings;
 mod shutter;
-mod strip;
 mod sweep;
 mod track;
 mod turn;

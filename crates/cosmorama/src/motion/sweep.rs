@@ -2,14 +2,16 @@
 
 use std::ops::Range;
 
+use rayon::prelude::*;
+
+use super::marks::{CELL, Marks};
 use super::rings::{Profile, Rings, Swept};
-use super::strip::Strip;
 use super::turning::{Tolerance, Turning};
 use super::{Exposure, LightSum};
 use crate::camera::View;
 use crate::filter::{Ewa, FilterKind, FilterSettings};
 use crate::raster::{Image, Rgba};
-use crate::render::{Progress, Resampler, Share, Stopped};
+use crate::render::{Progress, Resampler, Sampling, Share, Stopped, wanted};
 use crate::world::World;
 
 /// Least number of moments for which rings cost less than the moments' pictures.
@@ -81,8 +83,8 @@ impl Exposure {
             return if progress.advance(1.0).is_break() { Err(Stopped) } else { Ok(image) };
         };
         // An ellipse is no more than near to what is seen, so that any interpolation is good enough.
-        let Swept { mut image, is_left } = rings.render(texels, f32::INFINITY, progress)?;
-        self.fill_by_ellipses(&mut image, &is_left, &*prepared);
+        let Swept { mut image, left } = rings.render(texels, f32::INFINITY, progress)?;
+        self.fill_by_ellipses(&mut image, &left, &*prepared);
         Ok(image)
     }
 
@@ -153,14 +155,41 @@ fn by_rings(
     progress: &dyn Progress,
 ) -> Result<Image<Rgba>, Stopped> {
     let beginning = Share { whole: progress, from: 0.0, to: 0.5 };
-    let Swept { mut image, is_left } = rings.render(texels, CERTAIN, &beginning)?;
-    let strips = Strip::all(&is_left, [image.width(), image.height()]);
-    for (index, strip) in strips.iter().enumerate() {
-        let done = |index: usize| 0.5 + 0.5 * index as f64 / strips.len() as f64;
-        let share = Share { whole: progress, from: done(index), to: done(index + 1) };
-        strip.fill(&mut image, views, resampler, texels, &share)?;
+    let Swept { mut image, left } = rings.render(texels, CERTAIN, &beginning)?;
+    if left.count() > 0 {
+        fill(&mut image, &left, views, resampler, (texels, &Share { whole: progress, from: 0.5, to: 1.0 }))?;
     }
     if progress.advance(1.0).is_break() { Err(Stopped) } else { Ok(image) }
+}
+
+/// Fills the marked cells of a picture with the mean of some moments.
+fn fill(
+    image: &mut Image<Rgba>,
+    marks: &Marks,
+    views: &[(View, f32)],
+    (world, filter): (&World, FilterSettings),
+    (texels, progress): (&[Rgba], &dyn Progress),
+) -> Result<(), Stopped> {
+    let total: f32 = views.iter().map(|(_, weight)| weight).sum();
+    let width = image.width().max(1);
+    for (index, (view, weight)) in views.iter().enumerate() {
+        let done = |index: usize| index as f64 / views.len() as f64;
+        let share = Share { whole: progress, from: done(index), to: done(index + 1) };
+        let resampler = Resampler { world, target: view, filter };
+        let wanted = wanted(&resampler, |rect| marks.meet(rect));
+        let made = resampler.render_sampled(Sampling::only(&wanted), texels, &share)?;
+        let rows = image.pixels_mut().par_chunks_mut(width).zip(made.pixels().par_chunks(width)).enumerate();
+        rows.for_each(|(j, (row, made))| {
+            let cells = row.chunks_mut(CELL).zip(made.chunks(CELL)).zip(marks.row(j));
+            for ((sums, made), _) in cells.filter(|(_, is_marked)| **is_marked) {
+                for (sum, pixel) in sums.iter_mut().zip(made) {
+                    let before = if index == 0 { Rgba::TRANSPARENT } else { *sum };
+                    *sum = before + *pixel * (weight / total);
+                }
+            }
+        });
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -221,8 +250,8 @@ mod tests {
         let parts = parts(views, (world, FilterSettings::DEFAULT), 0..views.len());
         let certain = |part: &Part| {
             let rings = part.rings.as_ref()?;
-            let left = rings.render(light.texels(), CERTAIN, &on).expect("a picture").is_left;
-            let certain = left.iter().filter(|left| !**left).count() as f64 / left.len() as f64;
+            let left = rings.render(light.texels(), CERTAIN, &on).expect("a picture").left;
+            let certain = 1.0 - left.count() as f64 / (96 * 72 / 64) as f64;
             Some(certain * part.views.len() as f64 / views.len() as f64)
         };
         parts.iter().filter_map(certain).sum()

@@ -15,6 +15,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::Exposure;
+use super::marks::Marks;
 use super::turning::{Turning, lattice};
 use crate::camera::{CameraModel, EquirectCamera, PixelGrid, PixelPoint, View};
 use crate::filter::{CrossSection, FilterKind, FilterSettings};
@@ -96,8 +97,7 @@ pub(super) struct Rings<'a> {
 /// A picture, and which of its cells are left to be made otherwise.
 pub(super) struct Swept {
     pub(super) image: Image<Rgba>,
-    /// Cells of 8 × 8 pixels, row by row.
-    pub(super) is_left: Vec<bool>,
+    pub(super) left: Marks,
 }
 
 impl<'a> Rings<'a> {
@@ -223,7 +223,7 @@ impl<'a> Rings<'a> {
             let cells = &self.cells.cells[band * across..][..across];
             dispatch!(level, _simd => self.look_up_band(panorama, tolerance, cells, (pixels, is_left)));
         });
-        Swept { image, is_left: with_neighbours(&is_left, across) }
+        Swept { image, left: with_neighbours(&is_left, across) }
     }
 
     #[inline(always)]
@@ -292,7 +292,7 @@ impl<'a> Rings<'a> {
 }
 
 /// Marks the cells around those that are marked, too: where a streak is too bright for interpolation, so are its ends.
-fn with_neighbours(is_marked: &[bool], across: usize) -> Vec<bool> {
+fn with_neighbours(is_marked: &[bool], across: usize) -> Marks {
     let down = is_marked.len() / across.max(1);
     let around = |at: usize, of: usize| at.saturating_sub(1)..(at + 2).min(of);
     let is_near = |at: usize| {
@@ -300,7 +300,7 @@ fn with_neighbours(is_marked: &[bool], across: usize) -> Vec<bool> {
             around(at / across, down).flat_map(|j| around(at % across, across).map(move |i| j * across + i));
         cells.any(|cell| is_marked[cell])
     };
-    (0..is_marked.len()).map(is_near).collect()
+    Marks::new((0..is_marked.len()).map(is_near).collect(), across)
 }
 
 /// Part of a texel's width below which a pixel shows each jump of the clamp to the texels nearby.
