@@ -27,9 +27,13 @@ SHARP, SPOTS, BESIDE = 40.0, (0.0, 0.12, 0.25, 0.4, 0.6, 0.9, 1.3), 6
 FAINT = 0.006
 # Places and weights of the two halves of a part, which lie a spread to both sides of its shift.
 HALVES = ((-1, 0.5), (1, 0.5))
-# Shifts and spreads of the first fit, at an α of 1/4, by angle of view.
+# Lobes of this α or more have two parts, which do not lean away from the normal (above it they are drawn out at a slant only); those of half of it
+# have two parts up to this angle. Otherwise parts would go aside, and show suns as spots of their own.
+WIDE, FLAT = 1 / 2, 28.0
+# Shifts and spreads of the first fits, by angle of view: at an α of 1/4, and of wide lobes.
 START = ((0, (0, 0, 0.6), (0, 0, 0)), (32, (-0.1, 0.1, 1.9), (0.75, 0.3, 0.4)), (54, (-1.25, 0, 1.3), (0.87, 0.6, 0.35)),
          (71, (-2.9, -1, 0.1), (0.75, 0.36, 0.43)), (90, (-4.6, -2.3, -0.9), (1, 0.17, 0.44)))
+START_OF_WIDE = ((0, (0, 0, 0), (0, 0, 0)), (90, (-0.6, -0.3, 0), (0.6, 0.3, 0)))
 
 
 def ggx(cosine: np.ndarray, alpha: float) -> np.ndarray:
@@ -56,6 +60,8 @@ class Fit:
 
     def __init__(self, alpha: float, angle: float) -> None:
         self.alpha, self.angle = alpha, np.radians(np.clip(angle, LEAST, MOST))
+        is_plain = alpha >= WIDE or (alpha >= WIDE / 2 and angle < FLAT)
+        self.parts = PARTS[:2] if is_plain else PARTS
         edges = (np.arange(RINGS + 1) / RINGS) ** 2.6 * np.pi
         ring, around = np.meshgrid((edges[1:] + edges[:-1]) / 2, (np.arange(AROUND) + 0.5) / AROUND * np.pi, indexing="ij")
         size = np.repeat((np.cos(edges[:-1]) - np.cos(edges[1:]))[:, None] * 2 * np.pi / AROUND, AROUND, 1)
@@ -103,17 +109,19 @@ class Fit:
     def weights(self, numbers: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The best weights for shifts and spreads, and what is left."""
         shifts, spreads = numbers[: len(PARTS)], numbers[len(PARTS):]
-        columns = [self.rows(self.part(part * self.alpha, *of)) for part, *of in zip(PARTS, shifts, spreads)]
+        columns = [self.rows(self.part(part * self.alpha, *of)) for part, *of in zip(self.parts, shifts, spreads)]
         columns = np.stack(columns, 1)
         found, _ = nnls(columns, self.wanted)
-        return found, columns @ found - self.wanted
+        return np.pad(found, (0, len(PARTS) - len(found))), columns @ found - self.wanted
 
     def best(self, start: np.ndarray) -> tuple[float, np.ndarray]:
         """Shifts and spreads near others, and the root of what is left."""
         count, slant = len(PARTS), np.sin(self.angle)
         # Nothing is below the horizon, and lobes that are seen straight on are round.
         low = np.r_[[-6 * slant - 2e-3] * count, [0.0] * count]
-        high = np.r_[[min(6 * slant + 2e-3, (np.pi / 2 - 0.02 - self.angle) / self.alpha)] * count, [1.6 * slant] * count]
+        away = 0 if self.alpha >= WIDE else 6 * slant
+        drawn = 1.6 * slant ** (3 if self.alpha > WIDE else 1) + 1e-3
+        high = np.r_[[min(away + 2e-3, (np.pi / 2 - 0.02 - self.angle) / self.alpha)] * count, [drawn] * count]
         start = np.clip(start, low + 1e-4, high - 1e-4)
         left = lambda numbers: np.r_[self.weights(numbers)[1], STEP * (numbers - start)]
         found = least_squares(left, start, bounds=(low, high), max_nfev=25, diff_step=1e-3).x
@@ -133,6 +141,12 @@ def fitted(alpha: float, starts: list) -> list:
     return [numbers for _, numbers in found]
 
 
+def between(known: tuple) -> list:
+    """Shifts and spreads at all angles, straight between known ones."""
+    places, numbers = [place for place, *_ in known], np.array([np.concatenate(of) for _, *of in known])
+    return [np.array([np.interp(angle, places, column) for column in numbers.T]) for angle in ANGLES]
+
+
 def row(alpha: float, index: int, numbers: np.ndarray) -> str:
     weights = Fit(alpha, ANGLES[index]).weights(numbers)[0]
     weights = np.where(weights < FAINT, 0, weights)
@@ -144,12 +158,12 @@ def row(alpha: float, index: int, numbers: np.ndarray) -> str:
 
 
 def main() -> None:
-    known = [np.concatenate([np.atleast_1d(place), *of]) for place, *of in START]
-    starts = [np.array([np.interp(angle, [k[0] for k in known], [k[i] for k in known]) for i in range(1, 7)]) for angle in ANGLES]
     middle = ALPHAS.index(1 / 4)
-    found = {middle: fitted(ALPHAS[middle], starts)}
-    for index in [*range(middle - 1, -1, -1), *range(middle + 1, len(ALPHAS))]:
-        found[index] = fitted(ALPHAS[index], found[index + 1 if index < middle else index - 1])
+    found = {middle: fitted(ALPHAS[middle], between(START))}
+    for index in range(middle - 1, -1, -1):
+        found[index] = fitted(ALPHAS[index], found[index + 1])
+    for index in range(middle + 1, len(ALPHAS)):
+        found[index] = fitted(ALPHAS[index], between(START_OF_WIDE))
     print("//! Numbers of [`LobePart`](super::LobePart), made by `fit.py` beside this file.\n\nuse super::PARTS;\n")
     print("/// Weight, shift and spread of each part of a lobe.\ntype Lobe = [[f64; 3]; PARTS.len()];\n")
     print("/// The lobe of a prefiltered map.\npub(super) const SIMPLE: Lobe = [[1.0, 0.0, 0.0], [0.0; 3], [0.0; 3]];\n")
