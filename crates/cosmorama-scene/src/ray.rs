@@ -105,6 +105,13 @@ impl Ray {
         }
     }
 
+    /// Returns the ray whose direction is turned, with its changes, about the point that it comes from.
+    #[must_use]
+    pub(crate) fn bent(&self, turn: &DMat3) -> Self {
+        let bent = |change: RayChange| RayChange { direction: *turn * change.direction, ..change };
+        Self { direction: *turn * self.direction, dx: bent(self.dx), dy: bent(self.dy), ..*self }
+    }
+
     /// Returns the changes of the point at a distance, with the distance kept.
     pub fn spread(&self, distance: f64) -> [DVec3; 2] {
         [self.dx, self.dy].map(|change| change.origin + change.direction * distance)

@@ -175,7 +175,9 @@ impl Thrower<'_> {
     }
 
     fn light(&self, footprint: &Footprint) -> Rgba {
-        self.surroundings.reflection(self.gloss, footprint, Detail::Part)
+        let normal = self.normal(footprint.direction.vector());
+        let gloss = normal.map_or(self.gloss, |normal| self.gloss.about(normal));
+        self.surroundings.reflection(gloss, footprint, Detail::Part)
     }
 
     /// Returns where the ball shows a part of the world; `None` if it does not.

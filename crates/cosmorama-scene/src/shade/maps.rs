@@ -1,7 +1,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use cosmorama::camera::{CameraModel, EquirectCamera, FieldOfView, PerspectiveCamera, Placement, View};
-use cosmorama::filter::{FilterKind, FilterSettings, Kernel};
+use cosmorama::filter::{Feline, Filter, FilterKind, FilterSettings, Kernel};
 use cosmorama::lighting::{Lobe, LobeAverages, LobeError, PreparedLight};
 use cosmorama::raster::{Image, Rgba};
 use cosmorama::render::Resampler;
@@ -10,6 +10,7 @@ use cosmorama::world::{Light, World};
 
 use super::Sky;
 use super::albedo_table::AlbedoTable;
+use super::facets::LobePart;
 use super::rough::Alphas;
 use crate::error::SceneError;
 use crate::material::Material;
@@ -40,8 +41,7 @@ pub(super) struct LightMap {
 /// Width of the map of matt surfaces. Linear interpolation between its texels errs by less than 4·10⁻⁴.
 const MATT: usize = 128;
 
-/// Texels of a map of rough reflection across an angle of α in the middle of a face, and the least and greatest edge. Faces have
-/// no poles, around which a panorama's texels would be weighed one by one.
+/// Texels of a map of rough reflection across an angle of α in the middle of a face, and the least and greatest edge without margins.
 const ACROSS_ALPHA: f64 = 2.5;
 const EDGES: (usize, usize) = (32, 328);
 
@@ -55,7 +55,7 @@ impl LightMaps {
         let unseen = unseen.unwrap_or(Rgba::TRANSPARENT);
         scene.check()?;
         let materials = || scene.materials_under(number);
-        let alphas = Alphas::of(materials().filter_map(Material::alphas));
+        let alphas = Alphas::of(materials().flat_map(LobePart::ranges));
         let is_matt = materials().any(Material::is_matt);
         light.check(world)?;
         let cube = if alphas.mirror { LightMap::cube(&sky) } else { None };
@@ -74,8 +74,9 @@ impl LightMaps {
         let all: Vec<Lobe> = is_matt.then_some(Lobe::LAMBERT).into_iter().chain(rough()).collect();
         let prepared = PreparedLight::new(world, light, &all)?;
         let map = |(alpha, lobe): &(f64, Lobe)| {
-            let edge = ((2.0 * ACROSS_ALPHA / alpha) as usize).clamp(EDGES.0, EDGES.1);
-            (*alpha, LightMap::on_cube(edge, |view| prepared.picture(view, lobe, unseen)))
+            // Squares of four texels have means.
+            let edge = ((2.0 * ACROSS_ALPHA / alpha) as usize).next_multiple_of(4).clamp(EDGES.0, EDGES.1);
+            (*alpha, LightMap::on_cube((edge, Feline::MARGIN), |view| prepared.picture(view, lobe, unseen)))
         };
         Ok(Self {
             diffuse: is_matt.then(|| LightMap::panorama(&prepared, unseen)),
@@ -85,10 +86,11 @@ impl LightMaps {
         })
     }
 
-    /// Returns the memory of the maps by roughness, and of their smaller copies, in bytes.
+    /// Returns the memory of the maps by roughness, and of their copies for look-ups, in bytes.
     pub fn bytes(&self) -> usize {
-        let texels = |maps: &[(f64, LightMap)]| maps.iter().map(|(_, map)| map.world.texel_count()).sum::<usize>();
-        (texels(&self.exact) + texels(&self.chain)) * (size_of::<Rgba>() + size_of::<f32>()) * 4 / 3
+        let of =
+            |world: &World| world.texel_count() * (size_of::<Rgba>() + size_of::<f32>()) + Feline.setup(world).bytes;
+        self.exact.iter().chain(&self.chain).map(|(_, map)| of(&map.world)).sum()
     }
 
     /// Returns the roughnesses that there are maps of.
@@ -115,15 +117,17 @@ impl LightMap {
         let kind = if edge == fine { FilterKind::Ewa } else { FilterKind::EwaPyramid };
         let filter = FilterSettings { kind, kernel: Kernel::LIGHT, anti_ringing: false };
         let picture = |view: &View| Resampler { world: sky.world, target: view, filter }.render(sky.light.texels());
-        Some(Self::on_cube(edge, picture))
+        Some(Self::on_cube((edge, 0), picture))
     }
 
-    /// Makes a map on the faces of a cube.
-    fn on_cube(edge: usize, picture: impl Fn(&View) -> Image<Rgba>) -> Self {
+    /// Makes a map on the faces of a cube, by the texels along their edges and the margin on each side.
+    fn on_cube((edge, margin): (usize, usize), picture: impl Fn(&View) -> Image<Rgba>) -> Self {
         let face = |face: CubeFace| {
-            let camera = CameraModel::from(PerspectiveCamera::new(FieldOfView::Horizontal(Angle::from_degrees(90.0))));
+            let size = edge + 2 * margin;
+            let field = Angle::from_radians(2.0 * (size as f64 / edge as f64).atan());
+            let camera = CameraModel::from(PerspectiveCamera::new(FieldOfView::Horizontal(field)));
             let placement = Placement { orientation: face.orientation(), ..Placement::new(camera) };
-            let view = placement.view(edge, edge).expect("a face of more than no pixels");
+            let view = placement.view(size, size).expect("a face of more than no pixels");
             let picture = picture(&view);
             (face.name().to_owned(), view, picture)
         };

@@ -2,6 +2,7 @@
 
 mod albedo_table;
 mod beam;
+mod facets;
 mod glass;
 mod maps;
 mod proxy;

@@ -23,8 +23,10 @@ pub(crate) struct Surface<'a> {
 pub(crate) enum Gloss<'a> {
     /// A table of colours by elevation.
     Chrome(&'a Chrome),
-    /// The world, by a roughness α.
+    /// The world, by a roughness α, under the lobe of a prefiltered map.
     World(f64),
+    /// The world, by microfacets of a roughness α about a normal.
+    Facets(f64, DVec3),
 }
 
 impl<'a> Gloss<'a> {
@@ -37,16 +39,27 @@ impl<'a> Gloss<'a> {
     pub(crate) fn blur(self) -> f64 {
         match self {
             Self::Chrome(_) => 0.0,
-            Self::World(alpha) => alpha,
+            Self::World(alpha) | Self::Facets(alpha, _) => alpha,
         }
     }
 
-    /// Returns what all of a material reflects; `None` if that differs from place to place.
+    /// Returns what all of a material reflects, about a normal that is yet to be given; `None` if that differs from place to place.
     pub(crate) fn of(material: &'a Material) -> Option<Self> {
         if let Some(chrome) = &material.chrome {
             return Some(Self::Chrome(chrome));
         }
-        material.alphas().filter(|[least, greatest]| least == greatest).map(|[alpha, _]| Self::World(alpha))
+        let alphas = material.alphas().filter(|[least, greatest]| least == greatest);
+        let is_of_facets = material.finish.is_some();
+        alphas.map(|[alpha, _]| if is_of_facets { Self::Facets(alpha, DVec3::Z) } else { Self::World(alpha) })
+    }
+
+    /// Returns the same reflection about another normal.
+    #[must_use]
+    pub(crate) fn about(self, normal: DVec3) -> Self {
+        match self {
+            Self::Facets(alpha, _) => Self::Facets(alpha, normal),
+            Self::Chrome(_) | Self::World(_) => self,
+        }
     }
 }
 
@@ -86,14 +99,15 @@ impl<'a> Surface<'a> {
             (finish.roughness * f64::from(rough), (finish.metallic * f64::from(metal)).clamp(0.0, 1.0));
         // Spreads of slopes add; α² is twice a slope's variance.
         let alpha = (roughness.powi(4) + unseen).sqrt().clamp(0.0, 1.0);
-        let [scale, bias] = albedo.at(-wall.met.direction.dot(normal.facing(&wall.met).unit), alpha);
+        let facing = normal.facing(&wall.met).unit;
+        let [scale, bias] = albedo.at(-wall.met.direction.dot(facing), alpha);
         let insulator = finish.specular * (finish.insulator() * scale + bias);
         Self {
             normal,
             diffuse: base * ((1.0 - metallic) * (1.0 - insulator) * material.diffuse),
             specular: (DVec3::splat(insulator).lerp(base * scale + bias, metallic)) * material.specular,
             emissive: painted(&finish.emissive, chart),
-            gloss: Gloss::World(alpha),
+            gloss: Gloss::Facets(alpha, facing),
         }
     }
 }

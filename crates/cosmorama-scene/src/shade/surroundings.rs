@@ -1,9 +1,12 @@
 use cosmorama::camera::Footprint;
-use cosmorama::filter::{Bilinear, CrossSection, EwaPyramid, Filter, FilterKind, FilterSettings, Kernel, Prepared};
+use cosmorama::filter::{
+    Bilinear, CrossSection, EwaPyramid, Feline, Filter, FilterKind, FilterSettings, Kernel, Prepared,
+};
 use cosmorama::raster::Rgba;
 use cosmorama::sphere::{Angle, Direction, DirectionJacobian};
 use glam::{DMat3, DVec3, Vec3};
 
+use super::facets::LobePart;
 use super::maps::LightMap;
 use super::rough::RoughLight;
 use super::{Beam, Gloss, LightMaps, Proxy, Sky, Surface};
@@ -58,8 +61,7 @@ impl<'a> Surroundings<'a> {
     /// # Errors
     /// When the light is not that of the world.
     pub fn new(sky: Sky<'a>, maps: &'a LightMaps, filter: FilterSettings) -> Result<Self, SceneError> {
-        let smooth = EwaPyramid { kernel: Kernel::ADAPTIVE, anti_ringing: true };
-        let one = |(alpha, map): &'a (f64, LightMap)| Ok((*alpha, smooth.prepare(&map.world, &map.light)?));
+        let one = |(alpha, map): &'a (f64, LightMap)| Ok((*alpha, Feline.prepare(&map.world, &map.light)?));
         let prepared = |maps: &'a [(f64, LightMap)]| maps.iter().map(one).collect::<Result<Vec<_>, SceneError>>();
         let rough = RoughLight { exact: prepared(&maps.exact)?, chain: prepared(&maps.chain)? };
         let diffuse = maps.diffuse.as_ref().map(|map| Bilinear.prepare(&map.world, &map.light)).transpose()?;
@@ -139,7 +141,7 @@ impl<'a> Surroundings<'a> {
             if material.is_matt() && self.diffuse.is_none() {
                 return Err(SceneError::NoMap("matt things"));
             }
-            if material.alphas().is_some_and(|range| !held.hold(range)) {
+            if LobePart::ranges(material).any(|range| !held.hold(range)) {
                 return Err(SceneError::NoMap("a roughness"));
             }
             let albedo = self.maps.albedo.as_ref();
@@ -194,7 +196,7 @@ impl<'a> Surroundings<'a> {
         let mut sum = [0.0; 3];
         for beam in beams {
             let light = match &self.proxy {
-                Some(proxy) => self.look(gloss, &proxy.footprint(&beam.ray.turned(&self.turn)), detail),
+                Some(proxy) => self.near(proxy, gloss, &beam.ray, detail),
                 None => self.reflection(gloss, &beam.footprint(), detail),
             };
             (0..3).for_each(|k| sum[k] += light.0[k] * beam.weight[k] as f32);
@@ -204,14 +206,33 @@ impl<'a> Surroundings<'a> {
 
     /// Returns what a surface reflects of a footprint in the things' frame.
     pub(crate) fn reflection(&self, gloss: Gloss, footprint: &Footprint, detail: Detail) -> Rgba {
-        self.look(gloss, &turned(footprint, &self.turn), detail)
+        let look = |gloss: Gloss, seen: &Footprint| self.look(gloss, &turned(seen, &self.turn), detail);
+        match gloss {
+            Gloss::Facets(alpha, normal) => LobePart::sum(alpha, normal, footprint.direction.vector(), |part| {
+                look(Gloss::World(part.alpha), &part.footprint(footprint))
+            }),
+            Gloss::Chrome(_) | Gloss::World(_) => look(gloss, footprint),
+        }
     }
 
-    /// Returns what a surface reflects of a footprint in the world's frame.
+    /// Returns what a surface reflects of a ray, in the things' frame, under walls that stand for a near world.
+    fn near(&self, proxy: &Proxy, gloss: Gloss, ray: &Ray, detail: Detail) -> Rgba {
+        let look = |gloss: Gloss, ray: &Ray| self.look(gloss, &proxy.footprint(&ray.turned(&self.turn)), detail);
+        match gloss {
+            Gloss::Facets(alpha, normal) => {
+                LobePart::sum(alpha, normal, ray.direction, |part| look(Gloss::World(part.alpha), &part.ray(ray)))
+            }
+            Gloss::Chrome(_) | Gloss::World(_) => look(gloss, ray),
+        }
+    }
+
+    /// Returns what a surface reflects of a footprint in the world's frame, by the lobe of a map.
     fn look(&self, gloss: Gloss, footprint: &Footprint, detail: Detail) -> Rgba {
         match gloss {
             Gloss::Chrome(chrome) => chrome.average(footprint),
-            Gloss::World(alpha) => self.rough.average(alpha, footprint, || self.world(footprint, detail)),
+            Gloss::World(alpha) | Gloss::Facets(alpha, _) => {
+                self.rough.average(alpha, footprint, || self.world(footprint, detail))
+            }
         }
     }
 }

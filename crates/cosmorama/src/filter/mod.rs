@@ -24,7 +24,7 @@ pub(crate) use gather::ellipse::semi_axes;
 pub(crate) use gather::pixel_taps::PixelTaps;
 pub(crate) use kernel::KernelTable;
 pub use kernel::{CrossSection, Kernel};
-pub use lookup::{Bilinear, LabelRule, Labels, Point};
+pub use lookup::{Bilinear, Feline, LabelRule, Labels, Point};
 pub use reference::Reference;
 pub use settings::{FilterKind, FilterSettings};
 pub use traits::{Filter, PrepareError, Prepared, SetupCost, WIDEST};

@@ -17,6 +17,11 @@ pub enum PrepareError {
     /// The light is not that of the world.
     #[error(transparent)]
     Light(#[from] LightError),
+    /// The filter takes perspective views only.
+    #[error(
+        "this filter takes worlds of perspective views, such as the faces of a cube, and a view is of another projection"
+    )]
+    NotPerspective,
     /// Repeated integration would keep too few bits of the light.
     #[error(
         "repeated integration of order {order} keeps light to one part in 2^{bits} of the brightest over a view of {}x{} texels, and at \

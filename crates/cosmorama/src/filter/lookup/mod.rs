@@ -1,10 +1,12 @@
 //! Look-up of a single direction: the nearest texel, or the four around it, across the edges of views.
 
 mod bilinear;
+mod feline;
 pub(crate) mod labels;
 mod point;
 
 pub use bilinear::Bilinear;
+pub use feline::Feline;
 pub use labels::{LabelRule, Labels};
 pub use point::Point;
 
