@@ -263,6 +263,22 @@ fn a_glow_with_alpha_zero_survives_exr_and_tiff() {
 }
 
 #[test]
+fn integers_brighter_than_their_alpha_are_no_premultiplied_tiff() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.tif");
+    let read_back = |grey: fn(u8) -> u8| {
+        let samples = (0..=255).flat_map(|alpha| [grey(alpha), grey(alpha), grey(alpha), alpha]).collect();
+        let image = EncodedImage::new(16, 16, Channels::Rgba, Depth::Eight, Samples::U8(samples)).unwrap();
+        let image = image.with_alpha_mode(cosmorama::raster::AlphaMode::Premultiplied);
+        write(&path, &image, &WriteOptions::default()).unwrap();
+        read(&path, &Limits::default()).map_err(|error| error.to_string())
+    };
+    assert!(read_back(|alpha| alpha).is_ok() && read_back(|alpha| alpha.saturating_add(1)).is_ok());
+    let message = read_back(|_| 230).unwrap_err();
+    assert!(message.contains("a.tif") && message.contains("colour exceeds alpha in 228 of 254 pixels"), "{message}");
+}
+
+#[test]
 fn straight_floats_are_multiplied_for_exr() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.exr");

@@ -198,14 +198,14 @@ fn samples(path: &Path, result: DecodingResult, header: &Header, mode: AlphaMode
         DecodingResult::U8(samples) => {
             let mut samples = chosen(path, samples, header)?;
             if multiplied {
-                divide_by_alpha(&mut samples, header.channels);
+                divide_by_alpha(path, &mut samples, header.channels)?;
             }
             Samples::U8(samples)
         }
         DecodingResult::U16(samples) => {
             let mut samples = chosen(path, samples, header)?;
             if multiplied {
-                divide_by_alpha(&mut samples, header.channels);
+                divide_by_alpha(path, &mut samples, header.channels)?;
             }
             Samples::U16(samples)
         }
@@ -232,12 +232,23 @@ fn chosen<S: Copy>(path: &Path, samples: Vec<S>, header: &Header) -> Result<Vec<
     Ok(samples.chunks_exact(stride).flat_map(|pixel| pixel[..count].iter().copied()).collect())
 }
 
-/// Divides integer colours by alpha, because integers are straight in memory.
-fn divide_by_alpha<S: Copy + Into<u32> + TryFrom<u32>>(samples: &mut [S], channels: Channels) {
+/// Divides integer colours by alpha, because integers are straight in memory. Refuses pictures in which colours exceed alpha in
+/// most of what is partly transparent: they would be cut to white.
+fn divide_by_alpha<S: Copy + Into<u32> + TryFrom<u32>>(
+    path: &Path,
+    samples: &mut [S],
+    channels: Channels,
+) -> Result<(), IoError> {
     let full = (1_u32 << (8 * size_of::<S>())) - 1;
+    let (mut partial, mut above) = (0, 0);
     for pixel in samples.chunks_exact_mut(channels.count()) {
         let Some((alpha, colour)) = pixel.split_last_mut() else { continue };
         let alpha: u32 = (*alpha).into();
+        if alpha > 0 && alpha < full {
+            partial += 1;
+            // Programs round.
+            above += usize::from(colour.iter().any(|sample| (*sample).into() > alpha + 1));
+        }
         for sample in colour {
             let multiplied: u64 = u64::from((*sample).into());
             let straight = (multiplied * u64::from(full) + u64::from(alpha) / 2).checked_div(u64::from(alpha));
@@ -245,4 +256,12 @@ fn divide_by_alpha<S: Copy + Into<u32> + TryFrom<u32>>(samples: &mut [S], channe
             *sample = S::try_from(straight).unwrap_or(*sample);
         }
     }
+    if 2 * above > partial {
+        let found = format!(
+            "it says that colours are premultiplied, but colour exceeds alpha in {above} of {partial} pixels that are partly \
+             transparent; say that alpha is straight (ExtraSamples 2), or write the file again with premultiplied colours"
+        );
+        return Err(IoError::damaged(path, FORMAT, found));
+    }
+    Ok(())
 }
