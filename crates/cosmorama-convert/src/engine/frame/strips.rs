@@ -143,8 +143,8 @@ mod tests {
         ] {
             let conversion = Conversion::new(path("sky.png"), path(output)).to("fulldome:tilt=20".parse().unwrap());
             let conversion = conversion.from("equirect".parse().unwrap()).size("16384".parse().unwrap()).threads(2);
-            let depth = if output == "dome.exr" { Depth::Half } else { Depth::Sixteen };
-            let checked = conversion.depth(depth).memory(memory.parse().unwrap()).check().result;
+            let depth = Some(if output == "dome.exr" { Depth::Half } else { Depth::Sixteen });
+            let checked = Conversion { depth, ..conversion }.memory(memory.parse().unwrap()).check().result;
             let told = checked.as_ref().err().map(ToString::to_string).unwrap_or_default();
             assert_eq!(checked.is_ok(), is_enough, "{output} in {memory}: {told}");
             assert_eq!(told.contains("needs about"), !is_enough, "{told}");
