@@ -74,8 +74,9 @@ pub enum VideoError {
     },
     /// The file ends before its own structure does.
     #[error(
-        "{}: the file is cut: it has {found} bytes, but its own structure needs at least {expected}; copy or make it again, or \
-         take what there is with --damaged hold or skip", path.display()
+        "{}: the file is cut: it has {found} bytes, but its own structure needs at least {expected}; copy or make it again{}",
+        path.display(),
+        if *is_described { ", or take what there is with --damaged hold or skip" } else { ": what describes its frames is lost" }
     )]
     Cut {
         /// The file.
@@ -84,6 +85,8 @@ pub enum VideoError {
         expected: u64,
         /// Bytes that it has.
         found: u64,
+        /// Whether it still describes its frames, so that those before its end can be read.
+        is_described: bool,
     },
     /// A frame is damaged or missing.
     #[error(

@@ -1,10 +1,13 @@
+use std::ops::Range;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
 
 use cosmorama::raster::{Depth, EncodedImage, Encoder, Image, Rgba, Threads};
 use cosmorama_io::pending::Hidden;
-use cosmorama_io::{Carried, LayeredImage, Plane, Remark, WriteOptions, write_hidden, write_layers_hidden};
+use cosmorama_io::{
+    Carried, LayeredImage, MadeRows, Plane, Remark, WriteOptions, write_hidden, write_layers_hidden, write_rows_hidden,
+};
 
 use crate::colour::{Light, LightConversion, PictureNames};
 use crate::diagnostic::Result;
@@ -16,8 +19,8 @@ pub(crate) enum Levels {
     Light(Vec<Image<Rgba>>),
     /// Code values of 8 bits.
     Codes(Vec<Image<[u8; 3]>>),
-    /// Samples of a picture without levels.
-    Encoded(EncodedImage),
+    /// File that is written, but for its name.
+    Written(Hidden),
     /// Light, if the picture is written, with further channels.
     Layered { size: (usize, usize), picture: Option<Image<Rgba>>, planes: Vec<Plane> },
 }
@@ -119,6 +122,30 @@ impl Writer {
         encoded
     }
 
+    /// Writes a picture of that size but for its name, while its rows are made, as many at once.
+    pub(crate) fn save_rows(
+        &self,
+        words: FrameWords,
+        path: &Path,
+        (size, at_once): ((usize, usize), usize),
+        make: &mut dyn FnMut(Range<usize>) -> Option<EncodedImage>,
+    ) -> Result<Hidden> {
+        let (channels, depth, alpha_mode) = (self.encoder.channels(), self.encoder.depth(), self.encoder.alpha_mode());
+        let rows = MadeRows { size, channels, depth, alpha_mode, at_once, make };
+        Ok(write_rows_hidden(path, rows, &self.options_of(words))?)
+    }
+
+    /// Returns the options of a file, with what its own frame says.
+    fn options_of(&self, words: FrameWords) -> WriteOptions {
+        let mut options = self.options.clone();
+        if let Some(carried) = words.carried {
+            options.metadata.carried = carried;
+        }
+        options.metadata.origin = words.origin.as_deref().map(str::to_owned);
+        options.metadata.remarks.extend(self.said.get().cloned());
+        options
+    }
+
     /// Writes an output of a frame, a picture and its mip levels, with what its own frame says. Their memory goes back to the pool.
     pub(crate) fn save(&self, words: FrameWords, levels: Levels, path: &Path, threads: Threads) -> Result<()> {
         let hidden = self.save_hidden(words, levels, path, threads)?;
@@ -133,19 +160,13 @@ impl Writer {
         path: &Path,
         threads: Threads,
     ) -> Result<Option<Hidden>> {
-        let mut options = self.options.clone();
-        if let Some(carried) = words.carried {
-            options.metadata.carried = carried;
-        }
-        options.metadata.origin = words.origin.as_deref().map(str::to_owned);
-        options.metadata.remarks.extend(self.said.get().cloned());
-        let options = &options;
+        let (place, options) = (words.place, &self.options_of(words));
         let pool = &*self.options.pool;
         let encode = |image: Image<Rgba>| self.encode(image, threads);
         let encoded: Vec<EncodedImage> = match levels {
             Levels::Light(images) => images.into_iter().map(encode).collect(),
             Levels::Codes(images) => images.into_iter().map(EncodedImage::of_codes).collect(),
-            Levels::Encoded(image) => vec![image],
+            Levels::Written(file) => return Ok(Some(file)),
             Levels::Layered { size, picture, planes } => {
                 let picture = picture.map(encode);
                 let layered = LayeredImage { size, picture: picture.as_ref(), names: self.names.clone(), planes };
@@ -157,7 +178,7 @@ impl Writer {
         if self.videos.holds(path) {
             // A frame has no levels.
             let frame = encoded.into_iter().next();
-            frame.map_or(Ok(()), |frame| self.videos.put(path, words.place, frame, pool))?;
+            frame.map_or(Ok(()), |frame| self.videos.put(path, place, frame, pool))?;
             return Ok(None);
         }
         let written = write_hidden(path, &encoded, options);

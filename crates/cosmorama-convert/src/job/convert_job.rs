@@ -16,7 +16,7 @@ use cosmorama_spec::Missing;
 use super::Content;
 use super::backdrop::{FoundBackdrop, Front};
 use super::gaps::Shot;
-use super::memory_needs::{FrameNeeds, Held, MOST_HELD, gathered_bytes, program_bytes, with_reserve};
+use super::memory_needs::{FrameNeeds, Held, gathered_bytes, is_one_large, program_bytes, with_reserve};
 use super::options::{check_file_options, filter};
 use crate::colour::{LayerPlan, Light, check_choice, check_labels, check_light};
 use crate::detect::unless_damaged;
@@ -368,16 +368,13 @@ impl ConvertJob {
         }
         let views = self.target.views.iter().map(|target| (target.view.width(), target.view.height()));
         let needs = needs.with_bands(self.input.texels() as u64, views);
-        if self.is_by_strips() { needs.by_strips(&self.target) } else { needs }
+        if self.is_by_strips() { needs.by_strips(self.target.format, self.target.files[0].sheet.size) } else { needs }
     }
 
     /// Returns whether the picture is too large to be held as light, and of nothing but its own light: it is encoded strip by strip.
     pub(crate) fn is_by_strips(&self) -> bool {
-        let [file] = &self.target.files[..] else { return false };
-        let is_large = file.sheet.size.0.saturating_mul(file.sheet.size.1) > MOST_HELD;
-        let is_alone = file.sheet.pieces.len() == 1 && file.mips.is_empty() && self.input.frames.len() == 1;
-        is_large
-            && is_alone
+        is_one_large(&self.target)
+            && self.input.frames.len() == 1
             && !self.outputs.are_many()
             && !self.target.format.is_video()
             && self.filter.kind == FilterKind::Ewa

@@ -161,13 +161,14 @@ impl FrameNeeds {
         Self { samples: Samples { is_kept: true, ..self.samples }, ..self }
     }
 
-    /// Returns the needs of a picture that is encoded strip by strip: of light, only a strip is there at once. OpenEXR is given a copy of
-    /// the samples, channel by channel.
-    pub(crate) fn by_strips(self, target: &Target) -> Self {
-        let widest = target.views.iter().map(|target| target.view.width()).max().unwrap_or(0);
-        let copied = if target.format == Format::Exr { self.encoded } else { 0 };
-        let strip = area((widest, STRIP)).saturating_mul(size_of::<Rgba>() as u64);
-        Self { pictures: self.encoded, piece: strip, encoded: copied, ..self }
+    /// Returns the needs of a picture that is made strip by strip: of light, only a strip is there at once, and of samples, too, if the
+    /// format is written row by row.
+    pub(crate) fn by_strips(self, format: Format, (width, height): (usize, usize)) -> Self {
+        let rows = STRIP.min(height);
+        let strip = area((width, rows)).saturating_mul(size_of::<Rgba>() as u64);
+        let part = self.encoded / height.max(1) as u64 * rows as u64;
+        let samples = if format.takes_rows() { part } else { self.encoded };
+        Self { pictures: samples, piece: strip, encoded: 0, ..self }
     }
 
     /// Returns the bytes that a frame takes at once, at most, without those of the program. Samples of a single frame are freed as
@@ -239,8 +240,10 @@ impl MemoryBudget {
 
     /// Checks that the outputs of a frame fit, before anything is made.
     pub(crate) fn check_outputs(self, target: &Target, light: &Light) -> Result<()> {
-        let pixels = target.files.iter().flat_map(|file| file.levels()).map(|sheet| area(sheet.size));
-        let pixels = pixels.fold(0, u64::saturating_add);
+        // Of a picture by strips, only a strip may be held.
+        let most = if is_one_large(target) && target.format.takes_rows() { STRIP } else { usize::MAX };
+        let sheets = target.files.iter().flat_map(|file| file.levels());
+        let pixels = sheets.map(|sheet| area((sheet.size.0, sheet.size.1.min(most)))).fold(0, u64::saturating_add);
         // Each exists as a picture, in one form or the other, or as samples.
         let least = light.file_bytes((1, 1)).min(Held::INTEGERS.pixel());
         self.allow(pixels.saturating_mul(least), "a frame", &describe(target, "; "))
@@ -359,7 +362,18 @@ const RESERVE: u64 = 16;
 const VIEW: u64 = 5 << 10;
 
 /// Pixels of a picture that are held as light at once, at most, where it can be made by strips.
-pub(crate) const MOST_HELD: usize = 1 << 27;
+const MOST_HELD: u64 = 1 << 27;
+
+/// Returns whether a target is one picture of one view, too large to be held as light.
+pub(crate) fn is_one_large(target: &Target) -> bool {
+    let [file] = &target.files[..] else { return false };
+    is_too_large(file.sheet.size) && file.sheet.pieces.len() == 1 && file.mips.is_empty()
+}
+
+/// Returns whether a picture of this size is too large to be held as light, where it can be made by strips.
+pub(crate) fn is_too_large(size: (usize, usize)) -> bool {
+    area(size) > MOST_HELD
+}
 
 /// Rows of a strip.
 pub(crate) const STRIP: usize = 512;

@@ -7,7 +7,7 @@ use std::path::Path;
 use cosmorama::raster::{Depth, EncodedImage, FramePool, Samples};
 
 use crate::header::{Header, ImageFile};
-use crate::{Choice, Format, IoError, LayeredImage, Limits, Plane, WriteOptions};
+use crate::{Choice, Format, IoError, LayeredImage, Limits, MadeRows, Plane, WriteOptions};
 
 /// Bytes of a file from any source: a file on disk, a slice of memory, or standard input read into memory.
 ///
@@ -54,6 +54,18 @@ pub(crate) trait Codec: Sync {
         image: &EncodedImage,
         options: &WriteOptions,
     ) -> Result<(), IoError>;
+
+    /// Writes a picture whose rows are made meanwhile. Codecs that are not in [`Format::takes_rows`] hold all of them.
+    fn encode_rows(
+        &self,
+        path: &Path,
+        output: Sink<'_>,
+        rows: MadeRows<'_>,
+        options: &WriteOptions,
+    ) -> Result<(), IoError> {
+        let image = rows.held().map_err(|error| IoError::write(path, error))?;
+        self.encode(path, output, &image, options)
+    }
 
     /// Writes a picture and its mip levels, the largest first. Called only for formats that hold levels.
     fn encode_levels(

@@ -1,12 +1,12 @@
 use std::io::{Seek, Write};
 use std::path::Path;
 
-use cosmorama::raster::{Depth, EncodedImage};
+use cosmorama::raster::{Channels, Depth, EncodedImage};
 
 use crate::codec::{NumberPlanes, codec};
 use crate::header::Format;
 use crate::pending::{Hidden, Pending};
-use crate::{IoError, LayeredImage, WriteOptions};
+use crate::{IoError, LayeredImage, MadeRows, WriteOptions};
 
 /// Writes a file in the format of its extension. It appears whole or not at all: an older file of the same name is
 /// replaced only when the new one is complete.
@@ -67,7 +67,7 @@ pub fn write_hidden(
     let path = path.as_ref();
     let format = Format::from_extension(path)?;
     let Some((image, smaller)) = levels.split_first() else { return Err(IoError::write(path, "there is no picture")) };
-    check_can_hold(path, format, image)?;
+    check_can_hold(path, format, (image.channels(), image.depth()))?;
     if !smaller.is_empty() && !format.holds_levels() {
         return Err(IoError::CannotHold {
             path: path.to_owned(),
@@ -78,6 +78,24 @@ pub fn write_hidden(
     }
     let mut pending = Pending::create(path, &options.unfinished)?;
     codec(path, format)?.encode_levels(path, pending.writer(), levels, options)?;
+    pending.close()
+}
+
+/// Writes a picture whose rows are made meanwhile, like [`write()`]; it gets its name later. Its bytes are those of the whole picture.
+/// Where the format is not written row by row, all rows are held ([`Format::takes_rows`]).
+///
+/// # Errors
+/// When [`write()`] would fail, or rows are not made.
+pub fn write_rows_hidden(
+    path: impl AsRef<Path>,
+    rows: MadeRows<'_>,
+    options: &WriteOptions,
+) -> Result<Hidden, IoError> {
+    let path = path.as_ref();
+    let format = Format::from_extension(path)?;
+    check_can_hold(path, format, (rows.channels, rows.depth))?;
+    let mut pending = Pending::create(path, &options.unfinished)?;
+    codec(path, format)?.encode_rows(path, pending.writer(), rows, options)?;
     pending.close()
 }
 
@@ -93,7 +111,7 @@ pub fn write_to(
     options: &WriteOptions,
 ) -> Result<(), IoError> {
     let name = name.as_ref();
-    check_can_hold(name, format, image)?;
+    check_can_hold(name, format, (image.channels(), image.depth()))?;
     codec(name, format)?.encode(name, &mut output, image, options)
 }
 
@@ -174,7 +192,7 @@ pub fn write_layers_hidden(
         );
     }
     if let Some(image) = layered.picture {
-        check_can_hold(path, format, image)?;
+        check_can_hold(path, format, (image.channels(), image.depth()))?;
     }
     let (width, height) = layered.size;
     let count = width.checked_mul(height);
@@ -186,15 +204,15 @@ pub fn write_layers_hidden(
     pending.close()
 }
 
-fn check_can_hold(path: &Path, format: Format, image: &EncodedImage) -> Result<(), IoError> {
-    if format.supports(image.depth(), image.channels()) {
+fn check_can_hold(path: &Path, format: Format, (channels, depth): (Channels, Depth)) -> Result<(), IoError> {
+    if format.supports(depth, channels) {
         return Ok(());
     }
     let names = |names: Vec<String>| names.join(", ");
     Err(IoError::CannotHold {
         path: path.to_owned(),
         format,
-        found: format!("{} of depth {}", image.channels(), image.depth()),
+        found: format!("{channels} of depth {depth}"),
         expected: format!(
             "{}; depth {}",
             names(format.channels().iter().map(ToString::to_string).collect()),

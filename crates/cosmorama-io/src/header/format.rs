@@ -306,6 +306,11 @@ impl Format {
         self.properties().holds_levels
     }
 
+    /// Returns whether a file can be written row by row, so that its picture is never held whole.
+    pub const fn takes_rows(self) -> bool {
+        matches!(self, Self::Png | Self::Exr)
+    }
+
     /// Returns whether the format offers several levels of lossless compression.
     pub const fn has_compression(self) -> bool {
         self.properties().has_compression

@@ -3,14 +3,17 @@
 mod choice;
 mod format;
 mod plane;
+mod rows;
 
 use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
 
 pub use choice::Choice;
 pub use format::Format;
 pub use plane::{LayeredImage, Plane, PlaneSamples};
+pub use rows::MadeRows;
 
 pub(crate) use choice::matches;
+pub(crate) use rows::Picture;
 
 use crate::metadata::{Metadata, Window};
 

@@ -17,7 +17,7 @@ pub use layers::{FilePart, Layers, NamedChannel, SampleKind};
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use cosmorama::raster::{EncodedImage, Primaries, Transfer};
+use cosmorama::raster::{Channels, Depth, Primaries, Transfer};
 
 /// Name of the program in files that it writes.
 pub(crate) const SOFTWARE: &str = "cosmorama";
@@ -127,13 +127,13 @@ impl Metadata {
 
     /// Returns the ICC profile for a file that can describe its colours in no other way. Without one, sRGB is assumed of
     /// integers and linear Rec. 709 of floats; grey has no primaries.
-    pub(crate) fn profile_to_write(&self, image: &EncodedImage) -> Option<Cow<'_, [u8]>> {
+    pub(crate) fn profile_to_write(&self, channels: Channels, depth: Depth) -> Option<Cow<'_, [u8]>> {
         if let Some(profile) = &self.icc {
             return Some(profile.into());
         }
-        let is_colour = image.channels().is_colour();
+        let is_colour = channels.is_colour();
         let primaries = self.primaries.filter(|_| is_colour).unwrap_or(Primaries::REC709);
-        let usual = if image.depth().is_float() { Transfer::Linear } else { Transfer::Srgb };
+        let usual = if depth.is_float() { Transfer::Linear } else { Transfer::Srgb };
         let transfer = self.transfer.as_ref().unwrap_or(&usual);
         if *transfer == usual && primaries.is_same(&Primaries::REC709) {
             return None;

@@ -108,7 +108,9 @@ fn document(path: &Path, said: &Said, cut: Option<CutShort>) -> Result<Value, Vi
         return Ok(document);
     }
     Err(match cut {
-        Some(CutShort { expected, found }) => VideoError::Cut { path: path.to_owned(), expected, found },
+        Some(CutShort { expected, found }) => {
+            VideoError::Cut { path: path.to_owned(), expected, found, is_described: false }
+        }
         None => VideoError::NoVideo { path: path.to_owned(), reason: said.last_words() },
     })
 }

@@ -65,7 +65,7 @@ impl VideoReader {
         check_memory(info, &options)?;
         if let (Some(CutShort { expected, found }), None, Damaged::Error) = (info.cut, &options.frames, options.damaged)
         {
-            return Err(VideoError::Cut { path: info.path.clone(), expected, found });
+            return Err(VideoError::Cut { path: info.path.clone(), expected, found, is_described: true });
         }
         let timeline = ffmpeg.timeline(info)?;
         let known =
@@ -308,7 +308,7 @@ impl VideoReader {
             return Err(VideoError::NoSuchFrame { path, asked, last: self.expected.saturating_sub(1) });
         }
         if let Some(CutShort { expected, found }) = self.info.cut.filter(|_| self.options.damaged == Damaged::Error) {
-            return Err(VideoError::Cut { path, expected, found });
+            return Err(VideoError::Cut { path, expected, found, is_described: true });
         }
         let reason = match self.complaint.take() {
             Some(Complaint { frame, text }) if self.expected > 0 => return self.tell(frame, 1, text),

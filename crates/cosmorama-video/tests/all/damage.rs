@@ -153,6 +153,7 @@ fn a_cut_file_is_refused_and_its_missing_frames_are_named() {
         assert!(info.cut.is_some(), "{name}");
         let error = frames(&ffmpeg, &path, ReadOptions::default()).unwrap_err();
         assert!(matches!(error, VideoError::Cut { .. }), "{name}: {error}");
+        assert!(error.to_string().contains("--damaged"), "{name}: {error}");
         // Frames before the cut can be had, those behind it are named.
         assert!(frames(&ffmpeg, &path, of(0, 9)).unwrap() == whole[..10], "{name}");
         let error = frames(&ffmpeg, &path, of(0, 49)).unwrap_err().to_string();
@@ -179,6 +180,8 @@ fn a_file_without_its_end_is_called_cut() {
     cut(&path, 0.5);
     let error = ffmpeg.probe(&path).unwrap_err();
     assert!(matches!(error, VideoError::Cut { .. }), "{error}");
+    // Nothing of it can be had.
+    assert!(!error.to_string().contains("--damaged"), "{error}");
 }
 
 /// The third trap, of a count: fewer frames than the file announces, though its end is there.

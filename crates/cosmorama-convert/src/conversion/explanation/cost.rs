@@ -9,7 +9,7 @@ use cosmorama_io::Format;
 
 use super::Explanation;
 use crate::input::{Input, InputView};
-use crate::job::{FrameNeeds, Held, compressed, program_bytes};
+use crate::job::{FrameNeeds, Held, compressed, is_too_large, program_bytes};
 use crate::source::memory_budget::{area, read_bytes};
 use crate::target::Picture;
 
@@ -105,6 +105,13 @@ impl Explanation {
         let prepared = reports.iter().map(|report| report.memory.levels as u64).max().unwrap_or(0);
         let needs = FrameNeeds::of_pictures(input, worlds, (pixels, largest), held).with_prepared(prepared);
         let needs = needs.with_bands(input.texels() as u64, self.pictures().iter().map(size));
+        // A single large picture of light is made by strips.
+        let single = match self.pictures() {
+            [picture] if is_too_large(size(picture)) && held != Held::INTEGERS => {
+                needs.by_strips(files.format(), size(picture))
+            }
+            _ => needs,
+        };
         let plan = |report: &explain::Report| {
             if held == Held::INTEGERS { report.memory.fixed_plan } else { report.memory.plan }
         };
@@ -116,7 +123,7 @@ impl Explanation {
         SequenceCost {
             files,
             cpu_seconds: seconds(files, input, raw, reports),
-            picture_bytes: program.saturating_add(needs.peak()),
+            picture_bytes: program.saturating_add(single.peak()),
             job_bytes: [program, needs.shared, plans, depth.bytes].into_iter().fold(0, u64::saturating_add),
             frame_bytes: compressed(raw, files.format(), None),
         }

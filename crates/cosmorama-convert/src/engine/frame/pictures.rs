@@ -270,9 +270,12 @@ impl<'a> Engine<'a> {
         let times = if layers.leaves_picture_out() { 0 } else { self.layers() } + layers.groups.len();
         let all = views.iter().copied().cycle().take(views.len() * times);
         let mut making = Making { layer, shares: Shares::new(progress, all) };
-        let mut picture = |(index, _): &(usize, PathBuf)| {
+        let mut picture = |(index, path): &(usize, PathBuf)| {
             if layers.leaves_picture_out() {
                 return Ok(Levels::Light(Vec::new()));
+            }
+            if self.job.is_by_strips() {
+                return Ok(Levels::Written(self.strips((*index, path), (frame.frame, light), &mut making)?));
             }
             self.render_file(*index, (frame.frame, light), &mut making)
         };
@@ -349,9 +352,6 @@ impl<'a> Engine<'a> {
             let mut view = |index| self.samples(index, (worlds, encoder), making);
             let picture = |sheet: &Sheet| sheet.assemble_in(&self.pool, background, &mut view);
             return Ok(Levels::Codes(sheets.map(picture).collect::<Result<_>>()?));
-        }
-        if self.job.is_by_strips() {
-            return Ok(Levels::Encoded(self.strips(file, (frame, light), making)?));
         }
         let mut view = |index| self.render_view(index, (frame, light), making);
         let picture = |sheet: &Sheet| sheet.assemble_in(&self.pool, self.job.light.background, &mut view);

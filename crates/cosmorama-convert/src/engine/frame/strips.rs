@@ -1,92 +1,73 @@
-//! Pictures that are too large to be held as light. They are made and encoded strip by strip, and only their samples are held.
+//! Pictures that are too large to be held as light. They are made strip by strip while they are written.
 
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
+use std::path::Path;
 use std::sync::Arc;
 
 use cosmorama::camera::View;
-use cosmorama::raster::{AlphaMode, Channels, Depth, EncodedImage, Samples, Threads};
+use cosmorama::raster::{EncodedImage, Threads};
+use cosmorama::render::Share;
+use cosmorama_io::pending::Hidden;
 
 use super::pictures::{Engine, Layer, Making};
-use crate::diagnostic::{Result, bail, failure};
-use crate::engine::{BalancedLight, FrameLight, Posed, Shares};
+use crate::diagnostic::{ConvertError, Result, bail};
+use crate::engine::{BalancedLight, FrameLight, FrameWords, Posed, Shares};
 use crate::job::STRIP;
 use crate::target::TargetView;
 
 impl Engine<'_> {
-    /// Renders the samples of a file that is a picture of one view.
+    /// Makes a file that is a picture of one view, and writes it, but for its name.
     pub(super) fn strips(
         &self,
-        file: usize,
+        (file, path): (usize, &Path),
         (frame, light): (Option<u64>, &FrameLight),
         making: &mut Making,
-    ) -> Result<EncodedImage> {
+    ) -> Result<Hidden> {
         let sheet = &self.job.target.files[file].sheet;
-        let (width, height) = sheet.size;
         let [(index, _)] = sheet.pieces[..] else { bail!("several views cannot be made by strips") };
         let Layer { place, posed: whole, .. } = &making.layer;
         let share = making.shares.next(&whole.views[index].view);
-        let strips: Vec<TargetView> = strips_of(&whole.views[index]).collect();
-        let mut shares = Shares::new(&share, strips.iter().map(|strip| &strip.view));
-        let mut made: Option<Strips> = None;
-        for strip in strips {
-            // What is told of the geometry is told of the whole.
-            let posed = Posed::new(self.job, (whole.pose, vec![strip], false), &|_: f64| ControlFlow::Continue(()));
-            let posed = Arc::new(posed.map_err(|_| self.stopped())?.0);
-            let layer = Layer { place: *place, posed, balanced: BalancedLight::default(), behind: None };
-            let mut of_strip = Making { layer, shares };
-            let image = self.render_view(0, (frame, light), &mut of_strip)?;
-            shares = of_strip.shares;
-            let encoded = self.writer().encode(image, Threads::All);
-            let (channels, depth, alpha_mode) = (encoded.channels(), encoded.depth(), encoded.alpha_mode());
-            let samples = encoded.into_samples();
-            match &mut made {
-                None => made = Some(Strips { channels, depth, alpha_mode, samples }),
-                Some(strips) => append(&mut strips.samples, samples, width * height * channels.count()),
-            }
-        }
-        let Some(Strips { channels, depth, alpha_mode, samples }) = made else { bail!("a picture without rows") };
-        let picture =
-            EncodedImage::new(width, height, channels, depth, samples).map_err(|error| failure!("{error}"))?;
-        Ok(picture.with_alpha_mode(alpha_mode))
+        let at = |rows: usize| (rows as f64 / sheet.size.1 as f64).min(1.0);
+        let (mut done, mut failed) = (0, None);
+        let mut make = |rows: Range<usize>| {
+            let share = Share { whole: &share, from: at(done), to: at(done + rows.len()) };
+            done += rows.len();
+            let strip = strip_of(&whole.views[index], rows);
+            let shares = Shares::new(&share, std::iter::once(&strip.view));
+            let made = self.strip((*place, whole, strip), (frame, light), shares);
+            made.map_err(|error: ConvertError| failed = Some(error)).ok()
+        };
+        let origin = self.job.origin_of(frame)?.map(Arc::from);
+        let words = FrameWords { place: *place, carried: light.carried(), origin };
+        let written = self.writer().save_rows(words, path, (sheet.size, STRIP), &mut make);
+        failed.map_or(written, Err)
+    }
+
+    /// Makes the samples of a strip.
+    fn strip(
+        &self,
+        (place, whole, strip): (usize, &Posed, TargetView),
+        light: (Option<u64>, &FrameLight),
+        shares: Shares,
+    ) -> Result<EncodedImage> {
+        // What is told of the geometry is told of the whole.
+        let posed = Posed::new(self.job, (whole.pose, vec![strip], false), &|_: f64| ControlFlow::Continue(()));
+        let posed = Arc::new(posed.map_err(|_| self.stopped())?.0);
+        let layer = Layer { place, posed, balanced: BalancedLight::default(), behind: None };
+        let image = self.render_view(0, light, &mut Making { layer, shares })?;
+        Ok(self.writer().encode(image, Threads::All))
     }
 }
 
-/// Strips of a picture so far.
-struct Strips {
-    channels: Channels,
-    depth: Depth,
-    alpha_mode: AlphaMode,
-    samples: Samples,
-}
-
-/// Visits the strips of a view, from above.
-fn strips_of(whole: &TargetView) -> impl Iterator<Item = TargetView> {
-    let (width, height) = (whole.view.width(), whole.view.height());
-    (0..height).step_by(STRIP).map(move |top| {
-        let grid = whole.view.grid.window(width, STRIP.min(height - top), 0.0, top as f64);
-        TargetView { view: View { grid, ..whole.view.clone() }, ..whole.clone() }
-    })
-}
-
-/// Appends samples of a strip, which are of one kind with those above it, to what is to be so many.
-fn append(above: &mut Samples, below: Samples, all: usize) {
-    fn put<S: Copy>(above: &mut Vec<S>, below: &[S], all: usize) {
-        // Once: memory is then neither copied nor taken in excess.
-        above.reserve_exact(all - above.len());
-        above.extend_from_slice(below);
-    }
-    match (above, &below) {
-        (Samples::U8(above), Samples::U8(below)) => put(above, below, all),
-        (Samples::U16(above), Samples::U16(below)) => put(above, below, all),
-        (Samples::Half(above), Samples::Half(below)) => put(above, below, all),
-        (Samples::Float(above), Samples::Float(below)) => put(above, below, all),
-        _ => unreachable!("one encoder makes one kind of samples"),
-    }
+/// Returns the part of a view that these rows show.
+fn strip_of(whole: &TargetView, rows: Range<usize>) -> TargetView {
+    let grid = whole.view.grid.window(whole.view.width(), rows.len(), 0.0, rows.start as f64);
+    TargetView { view: View { grid, ..whole.view.clone() }, ..whole.clone() }
 }
 
 #[cfg(test)]
 mod tests {
-    use cosmorama::raster::FramePool;
+    use cosmorama::raster::{Channels, Depth, FramePool, Samples};
     use cosmorama_io::WriteOptions;
 
     use super::*;
@@ -124,17 +105,49 @@ mod tests {
                 panic!("{to}")
             };
             let whole = engine.writer().encode(whole.into_iter().next().unwrap(), Threads::All);
-            let view = &job.target.views[0].view;
-            let shares = Shares::new(progress, std::iter::once(view));
-            let mut making = Making { layer: engine.layer(frame, progress).unwrap(), shares };
-            let strips = engine.strips(0, (None, &light), &mut making).unwrap();
-            assert_eq!(strips_of(&job.target.views[0]).count(), 3, "{to}");
-            let form = |image: &EncodedImage| {
-                (image.width(), image.height(), image.channels(), image.depth(), image.alpha_mode())
-            };
-            assert_eq!(form(&strips), form(&whole), "{to}");
-            let steps = steps_between(strips.samples(), whole.samples());
+            let view = &job.target.views[0];
+            let shares = || Shares::new(progress, std::iter::once(&view.view));
+            let mut making = Making { layer: engine.layer(frame, progress).unwrap(), shares: shares() };
+            let form = |image: &EncodedImage| (image.width(), image.channels(), image.depth(), image.alpha_mode());
+            let mut steps = 0.0f32;
+            for rows in [0..512, 512..1024, 1024..1100] {
+                let strip = (0, &*making.layer.posed, strip_of(view, rows.clone()));
+                let strip = engine.strip(strip, (None, &light), shares()).unwrap();
+                assert_eq!((form(&strip), strip.height()), (form(&whole), rows.len()), "{to}");
+                let part = whole.cropped((0, rows.start), (whole.width(), rows.len()));
+                steps = steps.max(steps_between(strip.samples(), part.samples()));
+            }
             assert!(steps <= 1.0, "{to}: {steps} steps");
+            let file = path(output);
+            engine.strips((0, file.as_ref()), (None, &light), &mut making).unwrap().appear().unwrap();
+            let file = cosmorama_io::probe(file).unwrap();
+            let form = (file.width, file.height, file.channels, file.depth);
+            assert_eq!(form, (whole.width(), whole.height(), whole.channels(), whole.depth()), "{to}");
+        }
+    }
+
+    /// Checks that memory is asked for a strip alone where the format is written row by row, and for all samples where it is not.
+    #[test]
+    fn a_picture_by_strips_needs_the_memory_of_a_strip() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name).display().to_string();
+        let samples = Samples::U8(vec![90; 64 * 32 * 3]);
+        let sky = EncodedImage::new(64, 32, Channels::Rgb, Depth::Eight, samples).unwrap();
+        cosmorama_io::write(path("sky.png"), &sky, &WriteOptions::default()).unwrap();
+        for (output, memory, is_enough) in [
+            ("dome.png", "300M", true),
+            ("dome.exr", "300M", true),
+            ("dome.png", "150M", false),
+            ("dome.tif", "300M", false),
+            ("dome.tif", "2000M", true),
+        ] {
+            let conversion = Conversion::new(path("sky.png"), path(output)).to("fulldome:tilt=20".parse().unwrap());
+            let conversion = conversion.from("equirect".parse().unwrap()).size("16384".parse().unwrap()).threads(2);
+            let depth = Some(if output == "dome.exr" { Depth::Half } else { Depth::Sixteen });
+            let checked = Conversion { depth, ..conversion }.memory(memory.parse().unwrap()).check().result;
+            let told = checked.as_ref().err().map(ToString::to_string).unwrap_or_default();
+            assert_eq!(checked.is_ok(), is_enough, "{output} in {memory}: {told}");
+            assert_eq!(told.contains("needs about"), !is_enough, "{told}");
         }
     }
 

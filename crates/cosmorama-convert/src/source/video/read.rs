@@ -292,7 +292,7 @@ impl Source {
     fn cut(&self) -> Option<String> {
         let Content::Film { info, .. } = &self.content else { return None };
         let CutShort { expected, found } = info.cut?;
-        Some(VideoError::Cut { path: info.path.clone(), expected, found }.to_string())
+        Some(VideoError::Cut { path: info.path.clone(), expected, found, is_described: true }.to_string())
     }
 
     fn raw(kind: RawKind, video: &Path, files: &Arc<dyn RawFiles>) -> Result<Self, IoError> {
@@ -499,7 +499,7 @@ fn count(ffmpeg: &Ffmpeg, info: &VideoInfo, damaged: Damaged) -> Result<u64, Vid
     match (announced, info.cut) {
         (Some(frames), Some(_)) => return Ok(frames),
         (None, Some(CutShort { expected, found })) if damaged == Damaged::Error => {
-            return Err(VideoError::Cut { path: info.path.clone(), expected, found });
+            return Err(VideoError::Cut { path: info.path.clone(), expected, found, is_described: true });
         }
         _ => {}
     }

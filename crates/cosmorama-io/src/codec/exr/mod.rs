@@ -16,7 +16,7 @@ use cosmorama::raster::{EncodedImage, FramePool};
 
 use crate::codec::interface::{Codec, NumberPlanes, Sink, Source};
 use crate::header::{Header, ImageFile};
-use crate::{Choice, IoError, LayeredImage, Limits, Plane, WriteOptions};
+use crate::{Choice, IoError, LayeredImage, Limits, MadeRows, Plane, WriteOptions};
 
 /// Codec of OpenEXR.
 pub(crate) struct Exr;
@@ -38,6 +38,16 @@ impl Codec for Exr {
         options: &WriteOptions,
     ) -> Result<(), IoError> {
         writer::write(path, output, image, options)
+    }
+
+    fn encode_rows(
+        &self,
+        path: &Path,
+        output: Sink<'_>,
+        rows: MadeRows<'_>,
+        options: &WriteOptions,
+    ) -> Result<(), IoError> {
+        writer::write_rows(path, output, rows, options)
     }
 
     fn encode_levels(

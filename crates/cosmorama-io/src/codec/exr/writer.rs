@@ -1,7 +1,9 @@
-use std::io::{Seek, Write};
+use std::io::{self, Seek, Write};
 use std::path::Path;
 
 use cosmorama::raster::{AlphaMode, Channels, Depth, EncodedImage, FramePool, Sample, Samples};
+use exr::block::writer::ChunksWriter;
+use exr::block::{UncompressedBlock, enumerate_ordered_header_block_indices};
 use exr::compression::Compression as Packing;
 use exr::image::write::WritableImage;
 use exr::image::write::samples::WritableSamples;
@@ -14,7 +16,7 @@ use half::f16;
 
 use super::{attributes, colour};
 use crate::codec::interface::{NumberPlanes, is_beside_others};
-use crate::{Compression, IoError, LayeredImage, Plane, PlaneSamples, WriteOptions};
+use crate::{Compression, IoError, LayeredImage, MadeRows, Plane, PlaneSamples, WriteOptions};
 
 /// Writes scan lines of premultiplied light, as the format requires.
 pub(crate) fn write(
@@ -25,6 +27,52 @@ pub(crate) fn write(
 ) -> Result<(), IoError> {
     save_lines(path, output, (image.width(), image.height()), picture(path, image, &[], options)?, options)
 }
+
+/// Writes scan lines of a picture whose rows are made meanwhile.
+pub(super) fn write_rows(
+    path: &Path,
+    output: impl Write + Seek,
+    mut rows: MadeRows<'_>,
+    options: &WriteOptions,
+) -> Result<(), IoError> {
+    let (size, at_once) = (rows.size, rows.at_once.next_multiple_of(BLOCK));
+    let mut planes = |top: usize| {
+        let part = rows.part(top..size.1.min(top + at_once)).map_err(|error| IoError::write(path, error))?;
+        Ok::<Planes, IoError>(AnyChannels::sort(picture(path, &part, &[], options)?).list)
+    };
+    let described = described(path, (size, Blocks::ScanLines), planes(0)?, options)?;
+    let headers = described.write().infer_meta_data();
+    let (mut top, mut part) = (0, described.layer_data.channel_data.list);
+    let written = exr::block::write(output, headers, false, |meta, chunks| {
+        let mut compressor = chunks.sequential_blocks_compressor(&meta);
+        for (place, block) in enumerate_ordered_header_block_indices(&meta.headers) {
+            if block.pixel_position.y() >= top + at_once {
+                top = block.pixel_position.y();
+                part.clear();
+                part = planes(top).map_err(io::Error::other)?;
+            }
+            let mut lines = Ok(());
+            let block = UncompressedBlock::from_lines(&meta.headers[block.layer].channels, block, |line| {
+                let location = line.location;
+                let from = (location.position.y() - top) * size.0 + location.position.x();
+                let place = from..from + location.sample_count;
+                let written = match &part[location.channel].sample_data {
+                    FlatSamples::F16(samples) => line.write_samples_from_slice(&samples[place]),
+                    FlatSamples::F32(samples) => line.write_samples_from_slice(&samples[place]),
+                    FlatSamples::U32(samples) => line.write_samples_from_slice(&samples[place]),
+                };
+                lines = std::mem::replace(&mut lines, Ok(())).and(written);
+            });
+            lines?;
+            compressor.compress_block(place, block)?;
+        }
+        Ok(())
+    });
+    written.map_err(|error| IoError::write(path, error))
+}
+
+/// Rows of the largest block of scan lines that is compressed by itself.
+const BLOCK: usize = 16;
 
 /// Rows and columns of a tile, as `maketx` and `exrmaketiled` have them.
 const TILE: Vec2<usize> = Vec2(64, 64);
@@ -140,14 +188,13 @@ fn save_lines(
     Ok(())
 }
 
-/// Writes channels, and returns them.
-fn save<S: for<'s> WritableSamples<'s> + 'static>(
+/// Describes a file of channels, which are to be sorted by name.
+fn described<S: for<'s> WritableSamples<'s> + 'static>(
     path: &Path,
-    output: impl Write + Seek,
     (size, blocks): ((usize, usize), Blocks),
     list: SmallVec<[AnyChannel<S>; 4]>,
     options: &WriteOptions,
-) -> Result<SmallVec<[AnyChannel<S>; 4]>, IoError> {
+) -> Result<Image<Layer<AnyChannels<S>>>, IoError> {
     let packing = match options.compression {
         Compression::None => Packing::Uncompressed,
         Compression::Fast => Packing::RLE,
@@ -162,6 +209,18 @@ fn save<S: for<'s> WritableSamples<'s> + 'static>(
         return Err(IoError::write(path, format_args!("two channels are called {}", pair[0].name)));
     }
     picture.attributes.chromaticities = options.metadata.primaries.as_ref().map(colour::chromaticities);
+    Ok(picture)
+}
+
+/// Writes channels, and returns them.
+fn save<S: for<'s> WritableSamples<'s> + 'static>(
+    path: &Path,
+    output: impl Write + Seek,
+    form: ((usize, usize), Blocks),
+    list: SmallVec<[AnyChannel<S>; 4]>,
+    options: &WriteOptions,
+) -> Result<SmallVec<[AnyChannel<S>; 4]>, IoError> {
+    let picture = described(path, form, list, options)?;
     // The encoder's checks refuse standard attributes that it has not made itself.
     let writer = picture.write().skip_compatibility_checks();
     // The encoder has threads of its own. They are used if this thread works alone and there are several cores.

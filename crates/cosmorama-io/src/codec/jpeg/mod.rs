@@ -79,7 +79,7 @@ impl Codec for Jpeg {
         };
         let mut bytes = Vec::new();
         let mut encoder = JpegEncoder::new_with_quality(&mut bytes, options.quality.clamp(1, 100));
-        if let Some(profile) = options.metadata.profile_to_write(image) {
+        if let Some(profile) = options.metadata.profile_to_write(image.channels(), image.depth()) {
             encoder.set_icc_profile(profile.into_owned()).map_err(|error| fail(&error))?;
         }
         encoder.write_image(samples, width.into(), height.into(), colour).map_err(|error| fail(&error))?;

@@ -10,16 +10,17 @@ use png::{BitDepth, ColorType, DeflateCompression, Encoder, EncodingError, Filte
 
 use super::carried;
 use super::colour::{CICP, Tag, tag};
+use crate::header::Picture;
 use crate::metadata::XMP;
 use crate::{Compression, IoError, Metadata, WriteOptions};
 
 pub(crate) fn write(
     path: &Path,
     output: impl Write,
-    image: &EncodedImage,
+    picture: Picture<'_, '_>,
     options: &WriteOptions,
 ) -> Result<(), IoError> {
-    encode(output, image, options).map_err(|error| IoError::write(path, error))
+    encode(output, picture, options).map_err(|error| IoError::write(path, error))
 }
 
 /// Bytes of a chunk of compressed samples.
@@ -31,9 +32,9 @@ const SAMPLED: usize = 8;
 /// Rows out of which `SAMPLED` are compressed for a trial.
 const SAMPLED_OF: usize = 256;
 
-fn encode(output: impl Write, image: &EncodedImage, options: &WriteOptions) -> Result<(), EncodingError> {
+fn encode(output: impl Write, picture: Picture<'_, '_>, options: &WriteOptions) -> Result<(), EncodingError> {
     let failed = RefCell::new(None);
-    let encoded = encode_to(Faithful { output, failed: &failed }, image, options);
+    let encoded = encode_to(Faithful { output, failed: &failed }, picture, options);
     failed.take().map_or(encoded, |error| Err(EncodingError::IoError(error)))
 }
 
@@ -59,7 +60,7 @@ impl<W: Write> Write for Faithful<'_, W> {
 
 fn encode_to<W: Write>(
     output: Faithful<'_, W>,
-    image: &EncodedImage,
+    mut picture: Picture<'_, '_>,
     options: &WriteOptions,
 ) -> Result<(), EncodingError> {
     let failed = output.failed;
@@ -69,8 +70,9 @@ fn encode_to<W: Write>(
         Some(_) => None,
         None => metadata.transfer.as_ref().and_then(|transfer| tag(transfer, metadata.primaries.as_ref())),
     };
-    let mut encoder = Encoder::with_info(output, info(image, metadata, tag.as_ref())?)?;
-    let size = (image.width(), image.height());
+    let size = picture.size();
+    let form = (picture.channels(), picture.depth());
+    let mut encoder = Encoder::with_info(output, info((size, form), metadata, tag.as_ref())?)?;
     if let Some(packet) = metadata.packet_to_write(size) {
         encoder.add_itxt_chunk(XMP.to_owned(), packet)?;
     }
@@ -78,8 +80,8 @@ fn encode_to<W: Write>(
     // filtered by Up are read in a third of the time that others take.
     let (deflate, filter) = match options.compression {
         Compression::None => (DeflateCompression::NoCompression, Filter::NoFilter),
-        Compression::Fast if pays(image, Filter::Up)? => (DeflateCompression::FdeflateUltraFast, Filter::Up),
-        Compression::Balanced if pays(image, Filter::Adaptive)? => {
+        Compression::Fast if pays(&mut picture, Filter::Up)? => (DeflateCompression::FdeflateUltraFast, Filter::Up),
+        Compression::Balanced if pays(&mut picture, Filter::Adaptive)? => {
             (DeflateCompression::FdeflateUltraFast, Filter::Adaptive)
         }
         Compression::Fast | Compression::Balanced => (DeflateCompression::NoCompression, Filter::NoFilter),
@@ -88,11 +90,11 @@ fn encode_to<W: Write>(
     encoder.set_deflate_compression(deflate);
     encoder.set_filter(filter);
     let mut writer = encoder.write_header()?;
-    write_chunks(&mut writer, image, tag)?;
+    write_chunks(&mut writer, form, tag)?;
     carried::write(&mut writer, metadata, size)?;
     // Row by row, so that no compressed copy of the picture is held beside it.
     let mut samples = writer.stream_writer_with_size(CHUNK)?;
-    each_row(image, 0..image.height(), |row| {
+    each_row(&mut picture, 0..size.1, |row| {
         samples.write_all(row)?;
         if failed.borrow().is_none() { Ok(()) } else { Err(limit("the file takes no more")) }
     })?;
@@ -101,15 +103,19 @@ fn encode_to<W: Write>(
 }
 
 /// Returns the metadata that the encoder can write itself.
-fn info<'a>(image: &EncodedImage, metadata: &'a Metadata, tag: Option<&Tag>) -> Result<Info<'a>, EncodingError> {
-    let mut info = Info::with_size(dimension(image.width())?, dimension(image.height())?);
-    info.color_type = match image.channels() {
+fn info<'a>(
+    ((width, height), (channels, depth)): ((usize, usize), (Channels, Depth)),
+    metadata: &'a Metadata,
+    tag: Option<&Tag>,
+) -> Result<Info<'a>, EncodingError> {
+    let mut info = Info::with_size(dimension(width)?, dimension(height)?);
+    info.color_type = match channels {
         Channels::Grey => ColorType::Grayscale,
         Channels::GreyAlpha => ColorType::GrayscaleAlpha,
         Channels::Rgb => ColorType::Rgb,
         Channels::Rgba => ColorType::Rgba,
     };
-    info.bit_depth = if image.depth() == Depth::Eight { BitDepth::Eight } else { BitDepth::Sixteen };
+    info.bit_depth = if depth == Depth::Eight { BitDepth::Eight } else { BitDepth::Sixteen };
     info.icc_profile = metadata.icc.as_deref().map(Into::into);
     match tag {
         Some(Tag::Srgb(intent)) => info.srgb = Some(*intent),
@@ -123,30 +129,35 @@ fn info<'a>(image: &EncodedImage, metadata: &'a Metadata, tag: Option<&Tag>) -> 
 }
 
 /// Writes the chunks that the encoder cannot write itself.
-fn write_chunks(writer: &mut Writer<impl Write>, image: &EncodedImage, tag: Option<Tag>) -> Result<(), EncodingError> {
+fn write_chunks(
+    writer: &mut Writer<impl Write>,
+    (channels, depth): (Channels, Depth),
+    tag: Option<Tag>,
+) -> Result<(), EncodingError> {
     if let Some(Tag::CodePoints(cicp)) = tag {
         let full_range = u8::from(cicp.is_video_full_range_image);
         let data = [cicp.color_primaries, cicp.transfer_function, cicp.matrix_coefficients, full_range];
         writer.write_chunk(CICP, &data)?;
     }
-    if let Some(bits @ (10 | 12)) = image.depth().significant_bits() {
-        writer.write_chunk(sBIT, &vec![bits as u8; image.channels().count()])?;
+    if let Some(bits @ (10 | 12)) = depth.significant_bits() {
+        writer.write_chunk(sBIT, &vec![bits as u8; channels.count()])?;
     }
     Ok(())
 }
 
 /// Returns whether some evenly spaced rows become smaller by fast compression. Noise does not.
-fn pays(image: &EncodedImage, filter: Filter) -> Result<bool, EncodingError> {
+fn pays(picture: &mut Picture<'_, '_>, filter: Filter) -> Result<bool, EncodingError> {
     let mut sample = Vec::new();
-    for rows in sampled(image.height()) {
-        each_row(image, rows, |row| {
+    let (size, form) = (picture.size(), (picture.channels(), picture.depth()));
+    for rows in sampled(size.1) {
+        each_row(picture, rows, |row| {
             sample.extend_from_slice(row);
             Ok(())
         })?;
     }
     let bytes = sample.len();
     let metadata = Metadata::default();
-    let info = info(image, &metadata, None)?;
+    let info = info((size, form), &metadata, None)?;
     let row = info.raw_row_length() - 1;
     let mut compressed = Vec::new();
     let mut encoder = Encoder::new(&mut compressed, info.width, dimension(bytes / row)?);
@@ -168,6 +179,14 @@ fn sampled(height: usize) -> impl Iterator<Item = Range<usize>> {
 
 /// Hands rows to a function as PNG has their samples.
 fn each_row(
+    picture: &mut Picture<'_, '_>,
+    rows: Range<usize>,
+    mut write: impl FnMut(&[u8]) -> Result<(), EncodingError>,
+) -> Result<(), EncodingError> {
+    picture.visit(rows, |image, rows| each_row_of(image, rows, &mut write))
+}
+
+fn each_row_of(
     image: &EncodedImage,
     rows: Range<usize>,
     mut write: impl FnMut(&[u8]) -> Result<(), EncodingError>,
@@ -237,7 +256,7 @@ mod tests {
             (&noise(), Compression::High, false),
         ] {
             let mut file = Vec::new();
-            encode(&mut file, image, &options(compression)).unwrap();
+            encode(&mut file, Picture::Held(image), &options(compression)).unwrap();
             let raw = SIZE.0 * SIZE.1 * 6;
             assert!(file.len() < raw + raw / 100, "{compression:?}: {} of {raw} bytes", file.len());
             assert_eq!(file.len() < raw / 2, is_small, "{compression:?}: {} of {raw} bytes", file.len());
@@ -269,13 +288,13 @@ mod tests {
         let image = picture(|at| (at % 1000) as u16);
         for compression in [Compression::None, Compression::Balanced, Compression::High] {
             let mut file = Vec::new();
-            encode(&mut file, &image, &options(compression)).unwrap();
+            encode(&mut file, Picture::Held(&image), &options(compression)).unwrap();
             let places = (0..200).chain((200..file.len() - 200).step_by(997)).chain(file.len() - 200..file.len());
             for place in places {
-                let error = encode(Small(place), &image, &options(compression)).unwrap_err();
+                let error = encode(Small(place), Picture::Held(&image), &options(compression)).unwrap_err();
                 assert!(matches!(&error, EncodingError::IoError(error) if error.kind() == io::ErrorKind::StorageFull));
             }
-            encode(Small(file.len()), &image, &options(compression)).unwrap();
+            encode(Small(file.len()), Picture::Held(&image), &options(compression)).unwrap();
         }
     }
 }

@@ -84,7 +84,7 @@ where
         let kind: u16 = if image.alpha_mode() == AlphaMode::Premultiplied { 1 } else { 2 };
         tags.write_tag(Tag::ExtraSamples, &[kind][..])?;
     }
-    if let Some(profile) = how.metadata.profile_to_write(image) {
+    if let Some(profile) = how.metadata.profile_to_write(image.channels(), image.depth()) {
         tags.write_tag(ICC_PROFILE, &profile[..])?;
     }
     file.write_data(samples)

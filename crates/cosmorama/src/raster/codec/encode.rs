@@ -96,8 +96,23 @@ impl Encoder {
             (None, Depth::Half) => Samples::Half(self.floats(work, to_half)),
             (None, _) => Samples::Float(self.floats(work, |sample| sample)),
         };
-        let alpha_mode = if self.depth.is_float() { AlphaMode::Premultiplied } else { AlphaMode::Straight };
-        EncodedImage::from_parts(light.width(), light.height(), self.channels, self.depth, alpha_mode, samples)
+        let (width, height) = (light.width(), light.height());
+        EncodedImage::from_parts(width, height, self.channels, self.depth, self.alpha_mode(), samples)
+    }
+
+    /// Returns how the colours of encoded images relate to their alpha.
+    pub fn alpha_mode(&self) -> AlphaMode {
+        if self.depth.is_float() { AlphaMode::Premultiplied } else { AlphaMode::Straight }
+    }
+
+    /// Returns the channels of encoded images.
+    pub fn channels(&self) -> Channels {
+        self.channels
+    }
+
+    /// Returns the depth of encoded images.
+    pub fn depth(&self) -> Depth {
+        self.depth
     }
 
     fn integers<S: Sample + Send>(
