@@ -118,7 +118,9 @@ class Fit:
         """Shifts and spreads near others, and the root of what is left."""
         count, slant = len(PARTS), np.sin(self.angle)
         # Nothing is below the horizon, and lobes that are seen straight on are round.
-        low = np.r_[[-6 * slant - 2e-3] * count, [0.0] * count]
+        # A part that leans further shows light of the other side at outlines.
+        lean = 6 if self.alpha < WIDE / 2 else 3.4
+        low = np.r_[[-lean * slant - 2e-3] * count, [0.0] * count]
         away = 0 if self.alpha >= WIDE else 6 * slant
         drawn = 1.6 * slant ** (3 if self.alpha > WIDE else 1) + 1e-3
         high = np.r_[[min(away + 2e-3, (np.pi / 2 - 0.02 - self.angle) / self.alpha)] * count, [drawn] * count]

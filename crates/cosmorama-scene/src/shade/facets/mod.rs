@@ -134,7 +134,7 @@ mod tests {
     const WIDTH: usize = 512;
 
     /// Returns the light of waves from a direction.
-    fn light(DVec3 { x, y, z }: DVec3) -> [f64; 3] {
+    fn waves(DVec3 { x, y, z }: DVec3) -> [f64; 3] {
         let wave = |phase: f64| 0.5 + 0.35 * phase.sin();
         [
             wave(9.0 * (x + 0.3 * y - 0.2 * z)),
@@ -143,8 +143,14 @@ mod tests {
         ]
     }
 
-    /// Returns a panorama of the waves.
-    fn waves() -> (World, Light) {
+    /// Returns soft spots of light in three directions, from the front of the ball to its side.
+    fn spots(direction: DVec3) -> [f64; 3] {
+        let spot = |towards: DVec3| (60.0 * (direction.dot(towards.normalize()) - 1.0)).exp();
+        [DVec3::new(1.0, 0.0, 1.0), DVec3::new(0.3, 0.1, 1.0), DVec3::new(0.1, 1.0, -0.2)].map(spot)
+    }
+
+    /// Returns a panorama of light.
+    fn panorama(light: fn(DVec3) -> [f64; 3]) -> (World, Light) {
         let view = CameraModel::from(EquirectCamera::default()).view(WIDTH, WIDTH / 2).expect("a panorama");
         let texel = |i, j| {
             let [red, green, blue] = light(view.direction(PixelPoint::centre(i, j)).expect("a direction").vector());
@@ -153,10 +159,10 @@ mod tests {
         World::from_panorama(Image::from_fn(WIDTH, WIDTH / 2, texel)).expect("a panorama")
     }
 
-    /// Returns what facets reflect of the waves, as a part of what they reflect of a white world, by samples of the facets' normals
+    /// Returns what facets reflect of light, as a part of what they reflect of a white world, by samples of the facets' normals
     /// h: light comes from 2(v·h)h − v, and counts by G·(v·h)/((n·v)(n·h)) (Walter et al., *Microfacet models for refraction*, 2007,
     /// equations 35, 36 and 41).
-    fn by_samples(alpha: f64, normal: DVec3, eye: DVec3) -> [f64; 3] {
+    fn by_samples(light: fn(DVec3) -> [f64; 3], alpha: f64, normal: DVec3, eye: DVec3) -> [f64; 3] {
         const SIDE: usize = 96;
         let smith = |cosine: f64| 0.5 * ((1.0 + alpha * alpha * (cosine.powi(-2) - 1.0)).sqrt() - 1.0);
         let (right, up) = normal.any_orthonormal_pair();
@@ -178,36 +184,64 @@ mod tests {
         sum.map(|sum| sum / whole)
     }
 
-    /// Returns the dB between a ball's reflections by a gloss and by samples.
-    fn decibels(at: &Surroundings, alpha: f64, gloss: impl Fn(DVec3) -> Gloss<'static>) -> f64 {
+    /// A ball's reflections by a gloss, beside samples.
+    struct Errors {
+        mean_square: f64,
+        /// Greatest difference of a channel from the samples, as a part of the brightest of them.
+        greatest: f64,
+    }
+
+    /// Returns the errors of the lobe of facets, and of that of one map.
+    fn errors(light: fn(DVec3) -> [f64; 3], alpha: f64) -> [Errors; 2] {
         const COUNT: usize = 150;
-        let (eye, mut squares) = (DVec3::new(0.36, 0.48, 0.8), 0.0);
+        let sky = panorama(light);
+        let metal = Finish { metallic: 1.0, roughness: f64::sqrt(alpha), ..Finish::default() };
+        let alpha = metal.roughness.powi(2);
+        let scene = Scene::sphere(Material::of(metal));
+        let maps = LightMaps::of(&scene, 0, Sky::new(&sky.0, &sky.1)).unwrap();
+        let at = Surroundings::new(Sky::new(&sky.0, &sky.1), &maps, FilterSettings::DEFAULT).unwrap();
+        let eye = DVec3::new(0.36, 0.48, 0.8);
         let (right, up) = eye.any_orthonormal_pair();
-        for k in 0..COUNT {
+        let normal = |k: usize| {
             // Evenly over the disc that the eye sees.
             let (radius, (sin, cos)) = (((k as f64 + 0.5) / COUNT as f64).sqrt(), (2.399_963 * k as f64).sin_cos());
-            let normal = (right * cos + up * sin) * radius + eye * (1.0 - radius * radius).sqrt();
-            let mirrored = Direction::from_unit(normal * (2.0 * normal.dot(eye)) - eye);
-            let found = at.reflection(gloss(normal), &Footprint::point(mirrored), Detail::Pixel);
-            let expected = by_samples(alpha, normal, eye);
-            squares += (0..3).map(|k| (f64::from(found.0[k]) - expected[k]).powi(2)).sum::<f64>();
-        }
-        -10.0 * (squares / (3 * COUNT) as f64).log10()
+            (right * cos + up * sin) * radius + eye * (1.0 - radius * radius).sqrt()
+        };
+        let expected: Vec<[f64; 3]> = (0..COUNT).map(|k| by_samples(light, alpha, normal(k), eye)).collect();
+        let brightest = [0, 1, 2].map(|c| expected.iter().map(|light| light[c]).fold(0.0, f64::max));
+        [true, false].map(|is_of_facets| {
+            let (mut squares, mut greatest) = (0.0, 0.0f64);
+            for (k, expected) in expected.iter().enumerate() {
+                let normal = normal(k);
+                let gloss = if is_of_facets { Gloss::Facets(alpha, normal) } else { Gloss::World(alpha) };
+                let mirrored = Direction::from_unit(normal * (2.0 * normal.dot(eye)) - eye);
+                let found = at.reflection(gloss, &Footprint::point(mirrored), Detail::Pixel);
+                for c in 0..3 {
+                    let error = f64::from(found.0[c]) - expected[c];
+                    squares += error * error;
+                    greatest = greatest.max(error.abs() / brightest[c]);
+                }
+            }
+            Errors { mean_square: squares / (3 * COUNT) as f64, greatest }
+        })
     }
 
     #[test]
     fn lobes_are_those_of_facets() {
-        let sky = waves();
         for alpha in [0.05, 0.09, 0.2, 0.35, 0.6] {
-            let metal = Finish { metallic: 1.0, roughness: f64::sqrt(alpha), ..Finish::default() };
-            let alpha = metal.roughness.powi(2);
-            let scene = Scene::sphere(Material::of(metal));
-            let maps = LightMaps::of(&scene, 0, Sky::new(&sky.0, &sky.1)).unwrap();
-            let at = Surroundings::new(Sky::new(&sky.0, &sky.1), &maps, FilterSettings::DEFAULT).unwrap();
-            let facets = decibels(&at, alpha, |normal| Gloss::Facets(alpha, normal));
-            let one = decibels(&at, alpha, |_| Gloss::World(alpha));
+            let [facets, one] = errors(waves, alpha).map(|errors| -10.0 * errors.mean_square.log10());
             println!("α {alpha}: {facets:.1} dB, {one:.1} by one map");
             assert!(facets > 44.0 && facets > one + 8.0, "α {alpha}: {facets} dB, {one} by one map");
+        }
+    }
+
+    /// A part of the lobe that went aside would show each spot once more.
+    #[test]
+    fn spots_of_light_are_not_seen_twice() {
+        for (alpha, bound) in [(0.06, 0.1), (0.12, 0.1), (0.25, 0.1), (0.5, 0.2), (0.7, 0.25), (1.0, 0.3)] {
+            let [facets, one] = errors(spots, alpha);
+            println!("α {alpha}: {:.3}, {:.3} by one map", facets.greatest, one.greatest);
+            assert!(facets.greatest < bound && facets.mean_square < one.mean_square, "α {alpha}: {}", facets.greatest);
         }
     }
 
