@@ -16,6 +16,9 @@ const MOST_OBJECTS: usize = 100_000;
 const MOST_LIGHTS: usize = 1000;
 const MOST_TABLES: usize = 256;
 
+/// Greatest number of places, angles and sizes: products of a few of them are finite.
+const MOST: f64 = 1e30;
+
 impl SceneFile {
     /// Checks that all that is named is there, and that numbers of things, lights and worlds are some.
     pub(super) fn check(&self) -> Result<(), SceneFileError> {
@@ -44,8 +47,8 @@ impl SceneFile {
     /// Checks that a point has finite numbers, if it is given.
     pub(super) fn check_point(&self, name: &str, point: &Key<[f64; 3]>) -> Result<(), SceneFileError> {
         match value(point) {
-            Some(numbers) if !numbers.iter().all(|number| number.is_finite()) => {
-                Err(self.source.error(place(point), format!("{name} takes finite numbers")))
+            Some(numbers) if !numbers.iter().all(|number| number.abs() <= MOST) => {
+                Err(self.source.error(place(point), format!("{name} takes finite numbers, up to {MOST:e}")))
             }
             _ => Ok(()),
         }
@@ -67,8 +70,8 @@ impl SceneFile {
         self.check_point("translate", &entry.translate)?;
         self.check_point("rotate", &entry.rotate)?;
         match value(&entry.scale) {
-            Some(scale) if !(scale.is_finite() && scale > 0.0) => {
-                wrong(&format!("scale = {scale}: expected a number more than 0"), place(&entry.scale))
+            Some(scale) if !(scale > 0.0 && scale <= MOST) => {
+                wrong(&format!("scale = {scale:?}: expected a number more than 0, up to {MOST:e}"), place(&entry.scale))
             }
             _ => Ok(()),
         }

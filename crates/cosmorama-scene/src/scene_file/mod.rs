@@ -459,6 +459,7 @@ spec = "perspective:fov=60"
             ("\"sphere\"", "\"ball\"", &["line 18", "unknown name `ball`", "sphere"]),
             ("scale = 0.5", "scale = 0", &["line 21: scale = 0", "more than 0"]),
             ("scale = 0.5", "scale = nan", &["scale = NaN"]),
+            ("scale = 0.5", "scale = 1e308", &["line 21: scale = 1e308", "up to 1e30"]),
             ("metallic = 1", "texture = \"lost.png\"", &["line 12", "no such picture"]),
             ("metallic = 1", "kind = \"mirror\"", &["line 13", "matte and metallic"]),
             ("shape = \"sphere\"", "file = \"horse.obj\"", &["line 18", "no such model: horse.obj at [-1, 0, 0.5]"]),

@@ -1,3 +1,4 @@
+use std::collections::BTreeSet;
 use std::str::FromStr;
 
 use cosmorama::raster::Rgba;
@@ -53,9 +54,13 @@ impl FromStr for MaterialName {
 /// Reads the numbers of metallic-roughness; those that are not given are those of a white insulator of middle roughness.
 fn finish(text: &str) -> Result<Finish, String> {
     let mut finish = Finish { roughness: 0.5, ..Finish::default() };
+    let mut known = BTreeSet::new();
     for part in text.split(',') {
         let (key, value) =
             part.split_once('=').ok_or_else(|| format!("'{part}' is not KEY=VALUE, as in metallic=1"))?;
+        if !known.insert(key.trim()) {
+            return Err(format!("'{}' is given twice", key.trim()));
+        }
         let number = || value.parse::<f64>().map_err(|_| format!("{key}: '{value}' is not a number"));
         match key.trim() {
             "metallic" => finish.metallic = number()?,

@@ -135,8 +135,13 @@ pub(super) fn shots(args: &ShadeArgs, things: &Things) -> Result<Vec<Shot>> {
             }
             let pixels = [size.width, size.height.unwrap_or_else(|| camera.rows(size.width))];
             asked.check_picture(args, pixels.into())?;
-            let camera = camera.camera(pixels).map_err(|error| asked.places.of_camera(&error))?;
-            Ok(vec![Shot { camera, place: None }])
+            let wrong = |error| {
+                let name = &camera.name;
+                anyhow!(
+                    "the model's camera '{name}': {error}; mend it in the model's file, or take another, as in --camera {USUAL}"
+                )
+            };
+            Ok(vec![Shot { camera: camera.camera(pixels).map_err(wrong)?, place: None }])
         }
         CameraName::Lens(spec) => lens(args, (**spec).clone(), &asked, scene),
     }

@@ -176,6 +176,7 @@ fn what_cannot_be_is_refused() {
         (&["ball.png", "--camera", "cube"], &["--camera", "layout=3x2"]),
         (&["ball.png", "--material", "metalic=1"], &["'metalic'", "did you mean metallic?"]),
         (&["ball.png", "--material", "metallic=2"], &["2 is outside 0 to 1"]),
+        (&["ball.png", "--material", "metallic=1,metallic=0"], &["'metallic' is given twice"]),
         (&["ball.png", "--material", "roughness=1", "--alpha", "0.5"], &["--alpha", "roughness=0.5"]),
         (
             &["ball.png", "--material", "glass", "--refract", "bent", "--surfaces", "8"],

@@ -34,8 +34,8 @@ pub(super) fn read(
 ) -> Result<Contents, ModelFault> {
     let bytes = file::read(path, settings.most_bytes())?;
     check_bytes(&bytes, settings)?;
-    let Gltf { document, blob } =
-        Gltf::from_slice_without_validation(&bytes).map_err(|error| ModelFault::Format(error.to_string()))?;
+    let Gltf { document, blob } = Gltf::from_slice_without_validation(&bytes)
+        .map_err(|error| ModelFault::Format(format!("it is no glTF: {error}")))?;
     check_version(&document)?;
     let is_unknown = |extension: &&str| !SUPPORTED.contains(extension);
     let required: Vec<String> = document.extensions_required().filter(is_unknown).map(str::to_owned).collect();

@@ -172,6 +172,7 @@ def main() -> None:
     print("/// Angles of view from the normal, in degrees.\n#[rustfmt::skip]")
     print(f"pub(super) const ANGLES: [f64; {len(ANGLES)}] = [{', '.join(map(str, ANGLES))}];\n")
     print("/// Lobes of an α of 1/32, 1/16 and so on to 1, by angle of view.\n#[rustfmt::skip]")
+    print('#[expect(clippy::approx_constant, reason = "numbers of fits may come near one")]')
     print(f"pub(super) const LOBES: [[Lobe; ANGLES.len()]; {len(ALPHAS)}] = [")
     for index, alpha in enumerate(ALPHAS):
         lines = [f"        [{row(alpha, i, numbers)}],\n" for i, numbers in enumerate(found[index])]

@@ -14,6 +14,7 @@ pub(super) const ANGLES: [f64; 15] = [0.0, 8.0, 16.0, 24.0, 32.0, 40.0, 47.0, 54
 
 /// Lobes of an α of 1/32, 1/16 and so on to 1, by angle of view.
 #[rustfmt::skip]
+#[expect(clippy::approx_constant, reason = "numbers of fits may come near one")]
 pub(super) const LOBES: [[Lobe; ANGLES.len()]; 6] = [
     [
         [[1.000, 0.000, 0.000], [0.000, 0.000, 0.000], [0.000, 0.000, 0.000]],
