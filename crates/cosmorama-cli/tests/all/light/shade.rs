@@ -162,7 +162,7 @@ fn what_cannot_be_is_refused() {
     let bench = Bench::new();
     bench.save("sky.exr", &crate::bench::floats(64, 32, |_, _| [0.25, 0.5, 1.0]));
     std::fs::write(bench.path("scene.toml"), "[[object]]\nshape = 'sphere'\n").unwrap();
-    let cases: [(&[&str], &[&str]); 20] = [
+    let cases: [(&[&str], &[&str]); 21] = [
         (&["ball.jpg", "--background", "transparent"], &["JPEG", "no alpha", ".png"]),
         (&["ball.png", "--eye", "0,0,0"], &["--eye", "no direction"]),
         (&["ball.png", "--eye", "0,0"], &["--eye", "three numbers"]),

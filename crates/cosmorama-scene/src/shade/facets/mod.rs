@@ -235,7 +235,7 @@ mod tests {
         }
     }
 
-    /// A part of the lobe that went aside would show each spot once more.
+    /// Compares soft spots of light: a part of the lobe that went aside would show each once more.
     #[test]
     fn spots_of_light_are_not_seen_twice() {
         for (alpha, bound) in [(0.06, 0.1), (0.12, 0.1), (0.25, 0.1), (0.5, 0.2), (0.7, 0.25), (1.0, 0.3)] {
