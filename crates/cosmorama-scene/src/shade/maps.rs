@@ -29,6 +29,8 @@ pub struct LightMaps {
     pub(super) mirror: bool,
     /// Albedo of microfacets, if there is metallic-roughness.
     pub(super) albedo: Option<AlbedoTable>,
+    /// Bytes that it took to make the maps, beside their own.
+    to_make: usize,
 }
 
 /// A map of a world's light.
@@ -63,7 +65,7 @@ impl LightMaps {
         let range = finished().filter_map(Material::alphas).reduce(|[a, b], [c, d]| [a.min(c), b.max(d)]);
         let albedo = finished().next().map(|_| AlbedoTable::new(range.unwrap_or_default()));
         let (exact, chain, mirror) = (Vec::new(), Vec::new(), alphas.mirror);
-        let empty = Self { diffuse: None, exact, chain, cube, mirror, albedo };
+        let empty = Self { diffuse: None, exact, chain, cube, mirror, albedo, to_make: 0 };
         if !is_matt && alphas.exact.is_empty() && alphas.chain.is_empty() {
             return Ok(empty);
         }
@@ -82,6 +84,7 @@ impl LightMaps {
             diffuse: is_matt.then(|| LightMap::panorama(&prepared, unseen)),
             exact: exact.iter().map(map).collect(),
             chain: chain.iter().map(map).collect(),
+            to_make: PreparedLight::bytes_for(&all),
             ..empty
         })
     }
@@ -91,6 +94,11 @@ impl LightMaps {
         let of =
             |world: &World| world.texel_count() * (size_of::<Rgba>() + size_of::<f32>()) + Feline.setup(world).bytes;
         self.exact.iter().chain(&self.chain).map(|(_, map)| of(&map.world)).sum()
+    }
+
+    /// Returns about how many bytes it took to make the maps, beside their own.
+    pub fn bytes_to_make(&self) -> usize {
+        self.to_make
     }
 
     /// Returns the roughnesses that there are maps of.

@@ -30,5 +30,7 @@ pub(super) fn needed(scene: &Scene, lighting: &Lighting, shots: &[Shot], frames:
     let pixels: usize = shots.iter().map(|shot| shot.camera.width() * shot.camera.height()).sum();
     // The picture, its samples, a sheet that it goes into, and what lies behind things that turn.
     let pictures = 2 + usize::from(shots.iter().any(|shot| shot.place.is_some())) + usize::from(frames > 1);
-    (lighting.bytes() + scene.chrome_bytes() + pixels * pictures * size_of::<Rgba>()) as u64
+    // Maps are made before there are pictures, those of one world after those of another.
+    let to_make = lighting.maps.iter().map(LightMaps::bytes_to_make).max().unwrap_or(0);
+    (lighting.bytes() + scene.chrome_bytes() + to_make.max(pixels * pictures * size_of::<Rgba>())) as u64
 }

