@@ -19,9 +19,21 @@ pub(super) struct Lighting<'a> {
 }
 
 impl Lighting<'_> {
+    /// Returns the memory of worlds without their maps.
+    fn lit_bytes(&self) -> usize {
+        self.worlds.iter().map(|light| light.world.texel_count() * LIT).sum()
+    }
+
+    /// Returns the memory of worlds, ready to be asked.
     fn bytes(&self) -> usize {
-        let world = |light: &Radiance| light.world.texel_count() * LIT + CUBE + self.filter.setup(&light.world).bytes;
-        self.worlds.iter().map(world).sum::<usize>() + self.maps.iter().map(LightMaps::bytes).sum::<usize>()
+        let prepared = |light: &Radiance| CUBE + self.filter.setup(&light.world).bytes;
+        let maps = self.maps.iter().map(LightMaps::bytes).sum::<usize>();
+        self.lit_bytes() + self.worlds.iter().map(prepared).sum::<usize>() + maps
+    }
+
+    /// Returns the memory in which maps are made, those of one world after those of another.
+    fn bytes_to_make(&self) -> usize {
+        self.lit_bytes() + self.maps.iter().map(LightMaps::bytes_to_make).max().unwrap_or(0)
     }
 }
 
@@ -30,7 +42,6 @@ pub(super) fn needed(scene: &Scene, lighting: &Lighting, shots: &[Shot], frames:
     let pixels: usize = shots.iter().map(|shot| shot.camera.width() * shot.camera.height()).sum();
     // The picture, its samples, a sheet that it goes into, and what lies behind things that turn.
     let pictures = 2 + usize::from(shots.iter().any(|shot| shot.place.is_some())) + usize::from(frames > 1);
-    // Maps are made before there are pictures, those of one world after those of another.
-    let to_make = lighting.maps.iter().map(LightMaps::bytes_to_make).max().unwrap_or(0);
-    (lighting.bytes() + scene.chrome_bytes() + to_make.max(pixels * pictures * size_of::<Rgba>())) as u64
+    let shaded = lighting.bytes() + scene.chrome_bytes() + pixels * pictures * size_of::<Rgba>();
+    shaded.max(lighting.bytes_to_make()) as u64
 }

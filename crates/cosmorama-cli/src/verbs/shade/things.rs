@@ -30,12 +30,15 @@ pub(super) struct Things {
     pub(super) worlds: Vec<NamedWorld>,
     /// Files that were read, by their real paths.
     pub(super) files: HashSet<PathBuf>,
+    /// Memory of their triangles and pictures, at most.
+    pub(super) bytes: u64,
 }
 
 impl Things {
     /// Returns the things that were asked for, with their pictures.
     pub(super) fn read(args: &ShadeArgs, console: &Console) -> Result<Self> {
         let budget = MemoryBudget::new(args.limits.memory);
+        let whole = budget.bytes;
         let mut reader = Reader { console, budget, files: HashSet::new(), cameras: Vec::new() };
         let file = args.scene.as_deref().map(|path| scene_file(path, &mut reader)).transpose()?;
         let mut scene = match &file {
@@ -43,9 +46,10 @@ impl Things {
             None => scene(args, &mut reader)?,
         };
         let worlds = file.as_ref().map_or_else(|| Ok(Vec::new()), SceneFile::worlds)?;
-        let Reader { files, cameras, .. } = reader;
+        let Reader { files, cameras, budget, .. } = reader;
+        let bytes = whole.saturating_sub(budget.bytes);
         give_chrome(args, &mut scene)?;
-        Ok(Self { scene, file, cameras, worlds, files })
+        Ok(Self { scene, file, cameras, worlds, files, bytes })
     }
 }
 
