@@ -23,8 +23,9 @@ const TURN: Tolerance = Tolerance { place: 0.01, size: 0.01 };
 /// Deviations at which ellipses are told by their rings: they are not exact either.
 const ABOUT: Tolerance = Tolerance { place: 0.1, size: 0.1 };
 
-/// Greatest uncertainty of a pixel, of white or of its own light where that is brighter.
-const CERTAIN: f32 = 1.0 / 2000.0;
+/// Greatest jump across rings that is left to interpolation, of white or of a pixel's own light where that is brighter. Half way
+/// between two rings it is off by half of that.
+const JUMP: f32 = 1.0 / 200.0;
 
 impl Exposure {
     /// Renders the world through the open shutter: each pixel is the mean of what it sees on its way. What turns about one axis is
@@ -155,7 +156,7 @@ fn by_rings(
     progress: &dyn Progress,
 ) -> Result<Image<Rgba>, Stopped> {
     let beginning = Share { whole: progress, from: 0.0, to: 0.5 };
-    let Swept { mut image, left } = rings.render(texels, CERTAIN, &beginning)?;
+    let Swept { mut image, left } = rings.render(texels, JUMP, &beginning)?;
     if left.count() > 0 {
         fill(&mut image, &left, views, resampler, (texels, &Share { whole: progress, from: 0.5, to: 1.0 }))?;
     }
@@ -250,7 +251,7 @@ mod tests {
         let parts = parts(views, (world, FilterSettings::DEFAULT), 0..views.len());
         let certain = |part: &Part| {
             let rings = part.rings.as_ref()?;
-            let left = rings.render(light.texels(), CERTAIN, &on).expect("a picture").left;
+            let left = rings.render(light.texels(), JUMP, &on).expect("a picture").left;
             let certain = 1.0 - left.count() as f64 / (96 * 72 / 64) as f64;
             Some(certain * part.views.len() as f64 / views.len() as f64)
         };

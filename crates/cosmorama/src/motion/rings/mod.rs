@@ -24,7 +24,7 @@ use crate::render::{Progress, Resampler, Sampling, Stopped, Wanted};
 use crate::sphere::{Direction, Orientation};
 use crate::world::World;
 use cells::{Cell, Cells, Frame, SIDE};
-use taps::{BEFORE, Interpolation, REACH, SHORT, Taps, blur};
+use taps::{BEFORE, DIFFERENCE, Interpolation, OF_JUMP, REACH, Taps, Weights, blur};
 
 /// As many times more samples are needed where a kernel is as wide as it is because texels are: it leaves some of their lattice.
 const LATTICE: f64 = 1.75;
@@ -178,8 +178,8 @@ impl<'a> Rings<'a> {
         Wanted::new([self.view.width(), self.view.height()], |[i, j]| marks[j / SIDE * across + i / SIDE])
     }
 
-    /// Renders the view. `tolerance` is the greatest difference, between two ways to interpolate, at which a pixel is kept:
-    /// absolute for light up to 1, and relative to brighter light.
+    /// Renders the view. `tolerance` is the greatest jump from one ring to the next at which a pixel is kept: absolute for light up to 1,
+    /// and relative to brighter light.
     pub(super) fn render(&self, texels: &[Rgba], tolerance: f32, progress: &dyn Progress) -> Result<Swept, Stopped> {
         let (world, filter) = self.resampler;
         let sampling = Sampling { wanted: Some(&self.wanted), lens: Some(self.lens) };
@@ -263,8 +263,7 @@ impl<'a> Rings<'a> {
         if !is_inside && !self.is_whole_turn {
             return None;
         }
-        let along = self.interpolation.at(place[0] - floor[0]).long;
-        let across = self.interpolation.at(place[1] - floor[1]);
+        let [along, across] = [0, 1].map(|axis| self.interpolation.at(place[axis] - floor[axis]));
         let mut rings = [[0.0f32; 4]; REACH];
         for (k, ring) in rings.iter_mut().enumerate() {
             let row = panorama.row(y as usize + k);
@@ -273,22 +272,23 @@ impl<'a> Rings<'a> {
             } else {
                 std::array::from_fn(|at| row[(x + at as i64).rem_euclid(width as i64) as usize])
             };
-            for (weight, sample) in along.iter().zip(&samples) {
-                ring.iter_mut().zip(sample.0).for_each(|(sum, light)| *sum += weight * light);
-            }
+            *ring = sum(&along, &samples.map(|sample| sample.0));
         }
-        let sum = |weights: &[f32], rings: &[[f32; 4]]| {
-            let mut sum = [0.0f32; 4];
-            for (weight, ring) in weights.iter().zip(rings) {
-                sum.iter_mut().zip(ring).for_each(|(sum, light)| *sum += weight * light);
-            }
-            sum
-        };
-        let light = sum(&across.long, &rings);
-        let rough = sum(&across.short, &rings[(REACH - SHORT) / 2..]);
-        let is_certain = light.iter().zip(&rough).all(|(a, b)| (a - b).abs() <= tolerance * a.abs().max(1.0));
+        let [light, difference] = [sum(&across, &rings), sum(&DIFFERENCE, &rings)];
+        let most = tolerance * OF_JUMP;
+        let is_certain = light.iter().zip(&difference).all(|(light, off)| off.abs() <= most * light.abs().max(1.0));
         is_certain.then_some(Rgba(light))
     }
+}
+
+/// Returns the weighted sum of lights.
+#[inline(always)]
+fn sum(weights: &Weights, lights: &[[f32; 4]; REACH]) -> [f32; 4] {
+    let mut sum = [0.0f32; 4];
+    for (weight, light) in weights.iter().zip(lights) {
+        sum.iter_mut().zip(light).for_each(|(sum, light)| *sum += weight * light);
+    }
+    sum
 }
 
 /// Marks the cells around those that are marked, too: where a streak is too bright for interpolation, so are its ends.

@@ -8,26 +8,34 @@ pub(super) const REACH: usize = 8;
 /// Samples before the place that is interpolated.
 pub(super) const BEFORE: i64 = REACH as i64 / 2 - 1;
 
-/// Samples of the shorter interpolation, which tells how far the longer one may be trusted.
-pub(super) const SHORT: usize = 6;
+/// Shape of the window. Waves of up to a quarter of a cycle a sample are off by a thousandth of their height.
+const WINDOW: f64 = 6.0;
 
-/// Shapes of the windows of both. Waves of up to a quarter of a cycle a sample are off by a thousandth of their height by eight
-/// samples, and by a seventieth by six.
-const WINDOWS: [f64; 2] = [6.0, 5.0];
+/// Weights of the seventh difference of as many samples; their magnitudes add to one. Of a jump between the middle two it is
+/// [`OF_JUMP`]. Interpolation half way between them takes any such jump for a slope, and is off by half of it. Of waves of a tenth
+/// of a cycle a sample, which interpolation follows, the difference is 1/3700.
+pub(super) const DIFFERENCE: [f32; REACH] =
+    [-1.0 / 128.0, 7.0 / 128.0, -21.0 / 128.0, 35.0 / 128.0, -35.0 / 128.0, 21.0 / 128.0, -7.0 / 128.0, 1.0 / 128.0];
+
+/// Part of a jump between the middle two samples that their seventh difference is.
+pub(super) const OF_JUMP: f32 = 20.0 / 128.0;
 
 /// Parts of a sample for which weights are kept. Between them weights are interpolated, and are off by 10⁻⁵.
 const PHASES: usize = 256;
 
-/// Returns the weights by which `N` samples make one at the part `t` of the way from the middle two's first to their second: a
+/// Weights of the samples around a place.
+pub(super) type Weights = [f32; REACH];
+
+/// Returns the weights by which samples make one at the part `t` of the way from the middle two's first to their second: a
 /// sinc under a Kaiser window (J. F. Kaiser & R. W. Schafer, *On the use of the I0-sinh window for spectrum analysis*, 1980).
-fn sinc<const N: usize>(t: f64, shape: f64) -> [f64; N] {
-    let half = N as f64 / 2.0;
+fn sinc(t: f64) -> [f64; REACH] {
+    let half = REACH as f64 / 2.0;
     let weight = |k: usize| {
         let x = k as f64 + 1.0 - half - t;
-        let window = bessel(shape * (1.0 - (x / half).powi(2)).max(0.0).sqrt());
+        let window = bessel(WINDOW * (1.0 - (x / half).powi(2)).max(0.0).sqrt());
         if x == 0.0 { window } else { window * (PI * x).sin() / (PI * x) }
     };
-    let weights: [f64; N] = std::array::from_fn(weight);
+    let weights: [f64; REACH] = std::array::from_fn(weight);
     let sum: f64 = weights.iter().sum();
     weights.map(|weight| weight / sum)
 }
@@ -47,20 +55,9 @@ pub(super) struct Interpolation {
     phases: Vec<Weights>,
 }
 
-/// Weights of the samples around a place.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Weights {
-    pub(super) long: [f32; REACH],
-    /// Weights of the samples in the middle.
-    pub(super) short: [f32; SHORT],
-}
-
 impl Interpolation {
     pub(super) fn new() -> Self {
-        let phase = |k: usize| {
-            let t = k as f64 / PHASES as f64;
-            Weights { long: sinc(t, WINDOWS[0]).map(|w| w as f32), short: sinc(t, WINDOWS[1]).map(|w| w as f32) }
-        };
+        let phase = |k: usize| sinc(k as f64 / PHASES as f64).map(|weight| weight as f32);
         Self { phases: (0..=PHASES).map(phase).collect() }
     }
 
@@ -70,10 +67,7 @@ impl Interpolation {
         let at = t * PHASES as f64;
         let phase = (at as usize).min(PHASES - 1);
         let (part, [a, b]) = ((at - phase as f64) as f32, [&self.phases[phase], &self.phases[phase + 1]]);
-        Weights {
-            long: std::array::from_fn(|k| a.long[k] + (b.long[k] - a.long[k]) * part),
-            short: std::array::from_fn(|k| a.short[k] + (b.short[k] - a.short[k]) * part),
-        }
+        std::array::from_fn(|k| a[k] + (b[k] - a[k]) * part)
     }
 }
 
@@ -96,7 +90,7 @@ impl Taps {
         for (offset, weight) in offsets {
             let floor = offset.floor();
             let at = (floor as i64 - least) as usize;
-            for (sum, part) in sums[at..].iter_mut().zip(sinc::<REACH>(offset - floor, WINDOWS[0])) {
+            for (sum, part) in sums[at..].iter_mut().zip(sinc(offset - floor)) {
                 *sum += weight * part;
             }
         }
@@ -142,27 +136,35 @@ mod tests {
 
     use super::*;
 
+    /// Returns the sum of as many samples of a function as there are weights, the middle two at 0 and 1.
+    fn sum(weights: &Weights, sample: impl Fn(f64) -> f64) -> f64 {
+        weights.iter().enumerate().map(|(k, weight)| f64::from(*weight) * sample(k as f64 - BEFORE as f64)).sum()
+    }
+
     #[test]
     fn waves_are_interpolated_to_a_thousandth() {
         let interpolation = Interpolation::new();
-        for (cycles, [long, short]) in
-            [(0.02, [3e-4, 1e-3]), (0.1, [1e-3, 3e-3]), (0.2, [1e-3, 4e-3]), (0.25, [1e-3, 0.016])]
-        {
+        for (cycles, most) in [(0.02, 3e-4), (0.1, 1e-3), (0.2, 1e-3), (0.25, 1e-3)] {
             for (t, start) in [(0.0, 0.0), (0.1234, 0.3), (0.5, 0.0), (0.5, 0.25), (0.999, 0.1)] {
                 let wave = |x: f64| (TAU * (cycles * x + start)).sin();
-                let sum = |weights: &[f32]| {
-                    let first = 1.0 - weights.len() as f64 / 2.0;
-                    weights
-                        .iter()
-                        .enumerate()
-                        .map(|(k, weight)| f64::from(*weight) * wave(first + k as f64))
-                        .sum::<f64>()
-                };
-                let Weights { long: eight, short: six } = interpolation.at(t);
-                let off = [sum(&eight) - wave(t), sum(&six) - wave(t)].map(f64::abs);
-                assert!(off[0] < long && off[1] < short, "{cycles} cycles at {t}: {off:?}");
+                let off = (sum(&interpolation.at(t), wave) - wave(t)).abs();
+                assert!(off < most, "{cycles} cycles at {t}: {off}");
             }
         }
+    }
+
+    #[test]
+    fn the_seventh_difference_tells_jumps_from_waves() {
+        let jump = |x: f64| f64::from(x > 0.5);
+        assert!((sum(&DIFFERENCE, jump) - f64::from(OF_JUMP)).abs() < 1e-6);
+        for (cycles, most) in [(0.05, 3e-6), (0.1, 3e-4), (0.2, 0.025)] {
+            for start in [0.0, 0.1, 0.25, 0.3] {
+                let wave = |x: f64| (TAU * (cycles * x + start)).sin();
+                assert!(sum(&DIFFERENCE, wave).abs() < most, "{cycles} cycles from {start}");
+            }
+        }
+        // Neither a slope nor a bend is taken for a jump.
+        assert!(sum(&DIFFERENCE, |x| 3.0 + x + x * x).abs() < 1e-5);
     }
 
     #[test]
