@@ -298,6 +298,19 @@ mod tests {
         }
     }
 
+    /// The clamp of the filter jumps from ring to ring beside edges that lie along them.
+    #[test]
+    fn edges_along_rings_are_seen_as_by_a_thousand_moments() {
+        let brick = |i: usize, j: usize| [0.02, 0.9, 0.35, 0.6][(j / 7 + 2 * (i / 211)) % 4];
+        let texel = |i: usize, j: usize| Rgba::opaque(brick(i, j), 0.5 * brick(i, j), 1.0 - brick(i, j));
+        let (world, light) = World::from_panorama(Image::from_fn(2048, 1024, texel)).expect("a world");
+        let view = |time: f64| camera().turned(turn([2.5, 0.0, 0.0]).pose(time).orientation);
+        let few = Exposure::of(view, &Shutter::centred(1.0), 0.5, world.texel_pitch());
+        let expected = summed(&exposure(view, ShutterCurve::Box, 1024), &world, &light);
+        let (worst, _) = worst(&swept(&few, &world, &light), &expected);
+        assert!(worst < 1.0 / 500.0, "{worst}");
+    }
+
     #[test]
     fn a_suns_streak_has_its_light_place_and_length() {
         let texel = |i: usize, j: usize| {

@@ -14,8 +14,8 @@ const WINDOW: f64 = 6.0;
 /// Weights of the seventh difference of as many samples; their magnitudes add to one. Of a jump between the middle two it is
 /// [`OF_JUMP`]. Interpolation half way between them takes any such jump for a slope, and is off by half of it. Of waves of a tenth
 /// of a cycle a sample, which interpolation follows, the difference is 1/3700.
-pub(super) const DIFFERENCE: [f32; REACH] =
-    [-1.0 / 128.0, 7.0 / 128.0, -21.0 / 128.0, 35.0 / 128.0, -35.0 / 128.0, 21.0 / 128.0, -7.0 / 128.0, 1.0 / 128.0];
+pub(super) const DIFFERENCE: Weights =
+    [1.0 / 128.0, -7.0 / 128.0, 21.0 / 128.0, -35.0 / 128.0, 35.0 / 128.0, -21.0 / 128.0, 7.0 / 128.0, -1.0 / 128.0];
 
 /// Part of a jump between the middle two samples that their seventh difference is.
 pub(super) const OF_JUMP: f32 = 20.0 / 128.0;
