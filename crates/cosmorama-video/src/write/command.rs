@@ -7,7 +7,7 @@ use cosmorama::raster::Depth;
 
 use super::carried::Plan;
 use super::codec::Encoder;
-use super::feed::Planes;
+use super::feed::{Planes, RawFormat};
 use super::{Codec, Container, WriteSettings};
 use crate::colour::{Coding, RgbToYuv420};
 use crate::ffmpeg::{EXACT, Log, url};
@@ -75,8 +75,13 @@ impl Parts<'_> {
         format!("settb={tick},{scale},format={},setparams={}", self.encoder.pixel_format, parameters(&tags).join(":"))
     }
 
+    /// Returns the format in which ffmpeg gets frames.
+    pub(super) fn format(&self) -> RawFormat {
+        RawFormat { depth: self.settings.depth, has_alpha: self.settings.has_alpha, planes: self.planes() }
+    }
+
     /// Returns the planes that frames become before ffmpeg gets them; `None` where it gets RGB.
-    pub(super) fn planes(&self) -> Option<Planes> {
+    fn planes(&self) -> Option<Planes> {
         let tags = self.colour();
         let coding = |bits| Coding::new(tags.matrix?, tags.range.unwrap_or(SignalRange::Narrow), bits);
         match self.encoder.pixel_format {
