@@ -33,7 +33,8 @@ impl Parts<'_> {
         command.args(["-probesize", "32", "-analyzeduration", "0", "-fpsprobesize", "0", "-thread_queue_size", "2"]);
         command.args(["-f", "matroska", "-i", "pipe:0"]).args(&plan.input);
         command.args(["-map", "0:v:0", "-vf", &self.filters()]).args(ffmpeg.every_frame_once());
-        command.args(["-enc_time_base", &format!("{}:{}", tick.numerator(), tick.denominator())]);
+        // Of the pictures alone: sound that is coded anew counts samples, and would end with the first.
+        command.args(["-enc_time_base:v", &format!("{}:{}", tick.numerator(), tick.denominator())]);
         command.args(["-c:v", encoder.name]).args(&encoder.arguments);
         if settings.threads > 0 {
             command.args(["-threads:v", &settings.threads.to_string()]);
