@@ -165,6 +165,18 @@ pub enum VideoError {
         /// Presets that this build can make.
         existing: String,
     },
+    /// A codec, or every encoder of it, makes no frames of this size.
+    #[error("{}: {codec} takes no frames of {}x{} pixels; expected {expected}", path.display(), size.0, size.1)]
+    UnfitSize {
+        /// The file to write.
+        path: PathBuf,
+        /// Preset.
+        codec: &'static str,
+        /// Columns and rows.
+        size: (usize, usize),
+        /// Sizes that it takes.
+        expected: String,
+    },
     /// A container or codec cannot hold what the settings ask for.
     #[error("{}: {found}; expected {expected}", path.display())]
     CannotHold {

@@ -82,7 +82,18 @@ impl Checked {
         for (done, FrameOutputs { frame, files }) in (1..).zip(frames) {
             let (views, exposure) = (&job.views_in(job.pose(*frame).as_ref())?[..], &job.exposure(*frame)?[..]);
             let make = |(index, path): &(usize, PathBuf)| {
-                make(&OutputFile { job, place: done - 1, views, exposure, stages, unfinished, index: *index, path })
+                let place = done - 1;
+                make(&OutputFile {
+                    job,
+                    frame: *frame,
+                    place,
+                    views,
+                    exposure,
+                    stages,
+                    unfinished,
+                    index: *index,
+                    path,
+                })
             };
             pool.install(|| files.iter().try_for_each(make))?;
             tell_done(observer, *frame, (done, Some(frames.len())))?;

@@ -10,7 +10,7 @@ use crate::target::TargetFile;
 
 /// Checks the settings of the videos that are made, if there are any.
 pub(super) fn check(settings: &Conversion, job: &ConvertJob) -> Result<()> {
-    let outputs: Vec<PathBuf> = outputs(job).into_iter().map(|(path, _)| path).collect();
+    let outputs = outputs(job);
     if outputs.is_empty() { Ok(()) } else { MadeVideos::check(&outputs, &plan(settings, job), job.files.videos()) }
 }
 

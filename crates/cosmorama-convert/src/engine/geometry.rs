@@ -53,7 +53,7 @@ impl Geometry {
     ) -> Result<(Self, Vec<Diagnostic>), Stopped> {
         let mut warnings = Vec::new();
         let arithmetic = arithmetic(job);
-        if job.lighting.is_some() || job.formula.is_some() {
+        if job.lighting.is_some() || job.formula().is_some() {
             let plans = views.iter().map(|_| None).collect();
             return Ok((Self { plans, arithmetic, balance: Balance::of((job, views), Vec::new(), &[]) }, warnings));
         }

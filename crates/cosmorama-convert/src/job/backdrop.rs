@@ -181,7 +181,7 @@ impl FoundBackdrop {
             origin: None,
             coverage: Coverage::Complete,
             lighting: None,
-            formula: content.formula(),
+            content,
             backdrop,
             opacity: settings.opacity,
             missing,

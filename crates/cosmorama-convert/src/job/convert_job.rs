@@ -60,8 +60,8 @@ pub(crate) struct ConvertJob {
     pub(crate) coverage: Coverage,
     /// Map of light that is made instead of a picture.
     pub(crate) lighting: Option<LightSettings>,
-    /// Formula that stands for files, of a backdrop.
-    pub(crate) formula: Option<BuiltinWorld>,
+    /// Source of its pixels.
+    pub(super) content: Content,
     /// World behind the input.
     pub(crate) backdrop: Option<Box<ConvertJob>>,
     /// Factor of the input's light and its alpha.
@@ -245,7 +245,7 @@ impl ConvertJob {
             origin: None,
             coverage: Coverage::Complete,
             lighting,
-            formula: None,
+            content,
             backdrop,
             opacity: settings.opacity,
             missing,
@@ -263,6 +263,8 @@ impl ConvertJob {
             let frames = job.input.frames.clone();
             let memory = job.memory;
             job.cover(&frames, warnings).map_err(|error| unless_damaged((&*files, memory), first, error))?;
+        } else {
+            job.memory.check_frame(job.frame_needs(), &job.input, &job.target)?;
         }
         job.find_blur(content, warnings)?;
         content.check_last(settings, format, job.light.depth, warnings)?;
@@ -355,9 +357,18 @@ impl ConvertJob {
         self.memory.check_maps(self.frame_needs(), maps)
     }
 
+    /// Returns the formula that stands for files, if there is one.
+    pub(crate) fn formula(&self) -> Option<BuiltinWorld> {
+        self.content.formula()
+    }
+
     /// Returns the memory that its frames need, without what lies behind and without further channels.
     pub(crate) fn frame_needs(&self) -> FrameNeeds {
-        let held = if self.fixed_codec().is_some() { Held::INTEGERS } else { Held::floats(&self.light) };
+        let held = match self.content {
+            Content::Directions(map) => Held::directions(map),
+            _ if self.fixed_codec().is_some() => Held::INTEGERS,
+            _ => Held::floats(&self.light),
+        };
         let needs = FrameNeeds::of(&self.input, &self.worlds, &self.target, held)
             .with_prepared(self.prepared)
             .beside_streams(self.input.ahead_bytes(&*self.files));
@@ -381,7 +392,7 @@ impl ConvertJob {
             && !self.is_balance_asked_for()
             && !self.is_blurred
             && self.lighting.is_none()
-            && self.formula.is_none()
+            && self.content == Content::World
             && self.backdrop.is_none()
             && self.layers.is_plain()
             && self.fixed_codec().is_none()
@@ -403,6 +414,7 @@ impl ConvertJob {
         let light = &self.light;
         let is_possible = Arithmetic::Fixed.has_plan_of(self.filter.kind)
             && self.lighting.is_none()
+            && self.content.has_files()
             // The light of many moments is summed.
             && !self.is_blurred
             // A factor of the balance may raise a texel above white.
@@ -482,7 +494,7 @@ impl ConvertJob {
             warnings.push(Diagnostic::warning(Code::NoEffect, message));
             return Ok(());
         }
-        let has_formula = self.layers().skip(1).any(|job| job.formula.is_some());
+        let has_formula = self.layers().skip(1).any(|job| job.formula().is_some());
         if (!content.has_files() || has_formula) && blur.method == BlurMethod::Ellipse {
             return Err(usage(format!("{MOTION} ellipse averages texels, but a formula has none; leave it out")));
         }

@@ -7,6 +7,7 @@ use cosmorama::camera::View;
 use cosmorama::projection::ProjectionKind;
 use cosmorama::raster::{FixedLight, Rgba};
 use cosmorama::world::World;
+use cosmorama_builtin::{DirectionMap, DirectionPixel};
 use cosmorama_io::{Format, Header};
 
 use crate::colour::{LayerPlan, Light};
@@ -22,27 +23,35 @@ use crate::target::{Sheet, Target};
 pub(crate) struct Held {
     /// Whether texels and pixels are integers.
     is_fixed: bool,
+    /// Bytes of a pixel.
+    pixel: u64,
     /// Samples of a pixel, while its picture is encoded; those of integers are the picture itself.
     encoded: u64,
 }
 
 impl Held {
     /// Opaque pictures of 8 bits, filtered in integers.
-    pub(crate) const INTEGERS: Self = Self { is_fixed: true, encoded: 0 };
+    pub(crate) const INTEGERS: Self = Self { is_fixed: true, pixel: size_of::<[u8; 3]>() as u64, encoded: 0 };
 
     /// Returns pictures of light that are encoded as files want them.
     pub(crate) fn floats(light: &Light) -> Self {
-        Self { is_fixed: false, encoded: light.file_bytes((1, 1)) }
+        Self::of_samples(light.file_bytes((1, 1)))
     }
 
     /// Returns pictures of light whose samples take so many bytes a pixel.
     pub(crate) const fn of_samples(encoded: u64) -> Self {
-        Self { is_fixed: false, encoded }
+        Self { is_fixed: false, pixel: size_of::<Rgba>() as u64, encoded }
+    }
+
+    /// Returns maps of directions, of which each value becomes a plane.
+    pub(crate) fn directions(map: DirectionMap) -> Self {
+        let planes = map.channels().len() * size_of::<f32>();
+        Self { is_fixed: false, pixel: size_of::<DirectionPixel>() as u64, encoded: planes as u64 }
     }
 
     /// Returns pictures of light whose encoding is not known yet: as large as any.
     pub(crate) const fn any() -> Self {
-        Self { is_fixed: false, encoded: size_of::<Rgba>() as u64 }
+        Self::of_samples(size_of::<Rgba>() as u64)
     }
 
     /// Returns the bytes of a view's light, with the padding of its rows.
@@ -52,10 +61,6 @@ impl Held {
         } else {
             area((width, height)).saturating_mul(size_of::<Rgba>() as u64)
         }
-    }
-
-    fn pixel(self) -> u64 {
-        if self.is_fixed { size_of::<[u8; 3]>() as u64 } else { size_of::<Rgba>() as u64 }
     }
 }
 
@@ -122,8 +127,8 @@ impl FrameNeeds {
             prepared: 0,
             samples: Samples::of(input),
             light,
-            pictures: pixels.saturating_mul(held.pixel()),
-            piece: largest.saturating_mul(held.pixel()),
+            pictures: pixels.saturating_mul(held.pixel),
+            piece: largest.saturating_mul(held.pixel),
             bands: 0,
             encoded: pixels.saturating_mul(held.encoded),
         };
@@ -245,7 +250,7 @@ impl MemoryBudget {
         let sheets = target.files.iter().flat_map(|file| file.levels());
         let pixels = sheets.map(|sheet| area((sheet.size.0, sheet.size.1.min(most)))).fold(0, u64::saturating_add);
         // Each exists as a picture, in one form or the other, or as samples.
-        let least = light.file_bytes((1, 1)).min(Held::INTEGERS.pixel());
+        let least = light.file_bytes((1, 1)).min(Held::INTEGERS.pixel);
         self.allow(pixels.saturating_mul(least), "a frame", &describe(target, "; "))
     }
 
@@ -255,7 +260,7 @@ impl MemoryBudget {
         let largest = sizes.iter().max_by_key(|size| area(**size));
         let why = largest.map_or_else(String::new, |(width, height)| format!("; the output {width}x{height}"));
         let pixels = sizes.into_iter().map(area).fold(0, u64::saturating_add);
-        self.allow(pixels.saturating_mul(Held::INTEGERS.pixel()), "a frame", &why)
+        self.allow(pixels.saturating_mul(Held::INTEGERS.pixel), "a frame", &why)
     }
 
     /// Checks that a frame with the light of all wanted views fits, before memory is allocated.
@@ -269,7 +274,8 @@ impl MemoryBudget {
                 header.height
             )
         });
-        self.allow(with_program(needs.peak()), "a frame", &(largest + &describe(target, ", and ")))
+        let link = if largest.is_empty() { "; " } else { ", and " };
+        self.allow(with_program(needs.peak()), "a frame", &(largest + &describe(target, link)))
     }
 
     /// Checks that things under a world fit, which need so many bytes beside the program. Returns the bytes of all.

@@ -85,7 +85,7 @@ impl Origin {
             let views = movement.views_at(&layer.target.views, &at)?;
             poses.extend(views.iter().flatten().map(|target| seen(&target.view)));
         }
-        let formulas: Vec<_> = job.layers().map(|layer| layer.formula).collect();
+        let formulas: Vec<_> = job.layers().map(ConvertJob::formula).collect();
         let place = job.place(frame);
         let still = self.still.get_or_init(|| self.still_of(job));
         let read_by = |layer: &ConvertJob| -> Vec<Option<u64>> {

@@ -1,5 +1,6 @@
 use std::path::Path;
 
+use super::writer::LONGEST;
 use super::{Container, WriteSettings};
 use crate::{Ffmpeg, MasteringDisplay, VideoError};
 
@@ -120,13 +121,21 @@ impl Codec {
             let able = if able.is_empty() { "frames without alpha, or .mov or .mkv".to_owned() } else { names(&able) };
             cannot(format!("{} holds no alpha with {depth} bits", codec.name()), able)
         })?;
-        codec.check_size(settings.size).map_err(|found| cannot(found, "even numbers, or FFV1 in .mkv".to_owned()))?;
         let known = ffmpeg.encoders()?;
-        let name = codec.encoders().iter().copied().find(|name| known.iter().any(|known| known == name));
-        let name = name.ok_or_else(|| VideoError::NoEncoder {
+        let there = codec.encoders().iter().copied().filter(|name| known.iter().any(|known| known == name));
+        let there = there.collect::<Vec<_>>();
+        if there.is_empty() {
+            return Err(VideoError::NoEncoder {
+                codec: codec.name(),
+                needed: codec.encoders().join(" or "),
+                existing: names(&Self::ALL.into_iter().filter(|codec| codec.is_in(known)).collect::<Vec<_>>()),
+            });
+        }
+        let name = codec.encoder_of_size(&there, settings.size).map_err(|expected| VideoError::UnfitSize {
+            path: path.to_owned(),
             codec: codec.name(),
-            needed: codec.encoders().join(" or "),
-            existing: names(&Self::ALL.into_iter().filter(|codec| codec.is_in(known)).collect::<Vec<_>>()),
+            size: settings.size,
+            expected,
         })?;
         let arguments = codec.arguments(name, container, settings, is_deep);
         Ok((codec, Encoder { name, pixel_format, arguments }))
@@ -136,17 +145,28 @@ impl Codec {
         self.encoders().iter().any(|name| known.iter().any(|known| known == name))
     }
 
-    /// Checks that chroma samples of two columns and rows fit; the error says what does not.
-    fn check_size(self, (width, height): (usize, usize)) -> Result<(), String> {
-        let (columns, rows) = match self {
-            Self::Ffv1 => (1, 1),
-            Self::ProRes | Self::DnxHr => (2, 1),
-            Self::H264 | Self::Hevc | Self::Av1 | Self::Vp9 => (2, 2),
+    /// Returns the first of these encoders that takes frames of a size; the error says which sizes they take.
+    fn encoder_of_size<'a>(self, encoders: &[&'a str], (width, height): (usize, usize)) -> Result<&'a str, String> {
+        // Pixels share samples of chroma.
+        let (columns, rows, even) = match self {
+            Self::Ffv1 => (1, 1, ""),
+            Self::ProRes | Self::DnxHr => (2, 1, "an even number of columns"),
+            Self::H264 | Self::Hevc | Self::Av1 | Self::Vp9 => (2, 2, "even numbers of columns and rows"),
         };
-        if width.is_multiple_of(columns) && height.is_multiple_of(rows) {
-            return Ok(());
+        if !width.is_multiple_of(columns) || !height.is_multiple_of(rows) {
+            return Err(format!("{even}, or FFV1 in .mkv"));
         }
-        Err(format!("{} shares its chroma between neighbours, and {width}x{height} is odd", self.name()))
+        let takes = |encoder: &str| {
+            let [least, most] = bounds(encoder);
+            (least.0..=most.0).contains(&width) && (least.1..=most.1).contains(&height)
+        };
+        encoders.iter().copied().find(|encoder| takes(encoder)).ok_or_else(|| {
+            let sizes = |encoder: &&str| {
+                let [least, most] = bounds(encoder);
+                format!("{}x{} to {}x{}", least.0, least.1, most.0, most.1)
+            };
+            encoders.iter().map(sizes).collect::<Vec<_>>().join(" or ")
+        })
     }
 
     fn arguments(self, encoder: &str, container: Container, settings: &WriteSettings, is_deep: bool) -> Vec<String> {
@@ -172,6 +192,19 @@ impl Codec {
             }
         }
         arguments
+    }
+}
+
+/// Returns the least and the greatest size of frames that an encoder takes.
+fn bounds(encoder: &str) -> [(usize, usize); 2] {
+    match encoder {
+        "libx264" | "libvpx-vp9" => [(1, 1), (16384, 16384)],
+        "libx265" => [(16, 16), (LONGEST, LONGEST)],
+        "dnxhd" => [(256, 120), (LONGEST, LONGEST)],
+        // Its slices have a pixel each, then.
+        "ffv1" => [(4, 4), (LONGEST, LONGEST)],
+        "libsvtav1" => [(64, 64), (16384, 8704)],
+        _ => [(1, 1), (LONGEST, LONGEST)],
     }
 }
 
@@ -208,6 +241,26 @@ mod tests {
             assert!(codec.pixel_format(true, false).is_some() && codec.pixel_format(false, false).is_some());
         }
         assert_eq!(Codec::of_name("H264"), None);
-        assert!(Codec::H264.check_size((3, 2)).is_err() && Codec::ProRes.check_size((2, 3)).is_ok());
+    }
+
+    #[test]
+    fn an_encoder_is_one_that_takes_the_size() {
+        let found = |codec: Codec, size| codec.encoder_of_size(codec.encoders(), size);
+        assert!(found(Codec::H264, (3, 2)).is_err() && found(Codec::ProRes, (2, 3)).is_ok());
+        assert_eq!(found(Codec::Ffv1, (5, 7)), Ok("ffv1"));
+        assert_eq!(found(Codec::Av1, (64, 8704)), Ok("libsvtav1"));
+        assert_eq!(found(Codec::Av1, (62, 64)), Ok("libaom-av1"));
+        assert_eq!(found(Codec::Av1, (64, 8706)), Ok("libaom-av1"));
+        assert_eq!(Codec::Av1.encoder_of_size(&["libsvtav1"], (62, 64)), Err("64x64 to 16384x8704".to_owned()));
+        for (codec, least, most) in [
+            (Codec::DnxHr, (256, 120), (LONGEST, LONGEST)),
+            (Codec::Hevc, (16, 16), (LONGEST, LONGEST)),
+            (Codec::H264, (2, 2), (16384, 16384)),
+            (Codec::Vp9, (2, 2), (16384, 16384)),
+        ] {
+            assert!(found(codec, least).is_ok() && found(codec, most).is_ok(), "{codec:?}");
+            assert!(found(codec, (least.0 - 2, most.1)).is_err() && found(codec, (most.0 + 2, least.1)).is_err());
+        }
+        assert!(found(Codec::DnxHr, (256, 119)).is_err() && found(Codec::DnxHr, (254, 120)).is_err());
     }
 }

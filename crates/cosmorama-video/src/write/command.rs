@@ -7,7 +7,7 @@ use cosmorama::raster::Depth;
 
 use super::carried::Plan;
 use super::codec::Encoder;
-use super::feed::Planes;
+use super::feed::{Planes, RawFormat};
 use super::{Codec, Container, WriteSettings};
 use crate::colour::{Coding, RgbToYuv420};
 use crate::ffmpeg::{EXACT, Log, url};
@@ -33,7 +33,8 @@ impl Parts<'_> {
         command.args(["-probesize", "32", "-analyzeduration", "0", "-fpsprobesize", "0", "-thread_queue_size", "2"]);
         command.args(["-f", "matroska", "-i", "pipe:0"]).args(&plan.input);
         command.args(["-map", "0:v:0", "-vf", &self.filters()]).args(ffmpeg.every_frame_once());
-        command.args(["-enc_time_base", &format!("{}:{}", tick.numerator(), tick.denominator())]);
+        // Of the pictures alone: sound that is coded anew counts samples, and would end with the first.
+        command.args(["-enc_time_base:v", &format!("{}:{}", tick.numerator(), tick.denominator())]);
         command.args(["-c:v", encoder.name]).args(&encoder.arguments);
         if settings.threads > 0 {
             command.args(["-threads:v", &settings.threads.to_string()]);
@@ -75,8 +76,13 @@ impl Parts<'_> {
         format!("settb={tick},{scale},format={},setparams={}", self.encoder.pixel_format, parameters(&tags).join(":"))
     }
 
+    /// Returns the format in which ffmpeg gets frames.
+    pub(super) fn format(&self) -> RawFormat {
+        RawFormat { depth: self.settings.depth, has_alpha: self.settings.has_alpha, planes: self.planes() }
+    }
+
     /// Returns the planes that frames become before ffmpeg gets them; `None` where it gets RGB.
-    pub(super) fn planes(&self) -> Option<Planes> {
+    fn planes(&self) -> Option<Planes> {
         let tags = self.colour();
         let coding = |bits| Coding::new(tags.matrix?, tags.range.unwrap_or(SignalRange::Narrow), bits);
         match self.encoder.pixel_format {

@@ -6,6 +6,7 @@ use cosmorama::raster::EncodedImage;
 use cosmorama_io::pending::{Pending, Unfinished};
 
 use super::carried::Plan;
+use super::codec::Encoder;
 use super::command::Parts;
 use super::feed::{Header, RawFormat, Stamp, write_frame};
 use super::verify::Expected;
@@ -39,9 +40,20 @@ impl std::fmt::Debug for VideoWriter {
 }
 
 /// Longest side of a picture that encoders are given.
-const LONGEST: usize = 1 << 16;
+pub(super) const LONGEST: usize = 1 << 16;
 
 impl VideoWriter {
+    /// Checks that a video can be made with these settings, before there is any frame of it.
+    ///
+    /// # Errors
+    /// When the extension or the settings fit no codec, or the encoder is missing in this build of ffmpeg.
+    pub fn check(ffmpeg: &Ffmpeg, path: &Path, settings: &WriteSettings) -> Result<(), VideoError> {
+        let (container, codec, encoder) = chosen(ffmpeg, path, settings)?;
+        let plan = &Plan::default();
+        let parts = Parts { settings, container, codec, encoder: &encoder, plan, output: path };
+        check_block(path, settings, parts.format())
+    }
+
     /// Starts to encode, under a temporary name in the output's folder.
     ///
     /// # Errors
@@ -53,20 +65,17 @@ impl VideoWriter {
         settings: WriteSettings,
         unfinished: &Unfinished,
     ) -> Result<Self, VideoError> {
-        let container =
-            Container::of_path(path).ok_or_else(|| VideoError::UnknownContainer { path: path.to_owned() })?;
-        check(path, &settings)?;
         let ffmpeg = &ffmpeg.clone().ending_with(unfinished);
-        let (codec, encoder) = Codec::choose(ffmpeg, path, container, &settings)?;
+        let (container, codec, encoder) = chosen(ffmpeg, path, &settings)?;
         let plan = Plan::of(&settings, container);
         let pending = Pending::create(path, unfinished)?;
         let output = pending.path();
         let parts = Parts { settings: &settings, container, codec, encoder: &encoder, plan: &plan, output };
+        let format = parts.format();
+        check_block(path, &settings, format)?;
         let mut child = Child::start(parts.command(ffmpeg), "ffmpeg", ffmpeg.unfinished())?;
         let log = Log::of(child.stderr());
         let stdin = child.stdin().ok_or_else(|| failed(io::ErrorKind::BrokenPipe.into()))?;
-        let format = RawFormat { depth: settings.depth, has_alpha: settings.has_alpha, planes: parts.planes() };
-        check_block(path, &settings, format)?;
         let encoder = encoder.name;
         let frames = Some(BufWriter::with_capacity(1 << 16, stdin));
         let mut writer = Self {
@@ -233,6 +242,14 @@ impl VideoWriter {
 fn is_fatal(text: &str) -> bool {
     let words = ["No space left", "Input/output error", "Error writing", "av_interleaved_write_frame", "Error muxing"];
     words.iter().any(|words| text.contains(words))
+}
+
+/// Chooses container and codec.
+fn chosen(ffmpeg: &Ffmpeg, path: &Path, settings: &WriteSettings) -> Result<(Container, Codec, Encoder), VideoError> {
+    let container = Container::of_path(path).ok_or_else(|| VideoError::UnknownContainer { path: path.to_owned() })?;
+    check(path, settings)?;
+    let (codec, encoder) = Codec::choose(ffmpeg, path, container, settings)?;
+    Ok((container, codec, encoder))
 }
 
 fn check(path: &Path, settings: &WriteSettings) -> Result<(), VideoError> {

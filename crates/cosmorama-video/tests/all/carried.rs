@@ -85,6 +85,24 @@ fn a_part_has_its_own_sound_and_time_code() {
     assert!((0.55..0.68).contains(&seconds), "{seconds}");
 }
 
+/// Sound that is coded anew is as long as the part that it goes with.
+#[test]
+fn a_part_has_all_its_sound_where_it_is_coded_anew() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let raw = folder.path().join("raw.mov");
+    run(&format!("{} -f lavfi -i sine=duration=2 -c:v libx264 -c:a pcm_s16le", moving(64, 32, "25", 50)), &raw);
+    let info = ffmpeg.probe(&raw).unwrap();
+    for (name, part, frames) in [("a.webm", 0.0..1.6, 40), ("a.webm", 1.2..1.8, 15), ("a.mp4", 0.4..2.0, 40)] {
+        let path = folder.path().join(name);
+        let expected = part.end - part.start;
+        write(&ffmpeg, &path, &settings(&info, Some(part)), frames).unwrap();
+        let lengths = probed(&path, "-select_streams a -show_entries packet=duration_time -of csv=p=0");
+        let seconds: f64 = lengths.split([',', '\n']).filter_map(|length| length.trim().parse::<f64>().ok()).sum();
+        assert!((seconds - expected).abs() < 0.12, "{name}: {seconds} of {expected} s");
+    }
+}
+
 /// A chapter of which a part has no frame is left out, at both ends.
 #[test]
 fn a_part_has_no_empty_chapters() {

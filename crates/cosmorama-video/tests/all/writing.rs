@@ -162,16 +162,54 @@ fn what_a_file_cannot_hold_is_refused_before_anything_is_written() {
         ("a.png", settings(), ".mkv"),
         ("a.mp4", WriteSettings { size: (63, 32), ..settings() }, "63x32"),
         ("a.mp4", WriteSettings { size: (0, 32), ..settings() }, "0x32"),
+        ("a.mov", WriteSettings { codec: Some(Codec::DnxHr), ..settings() }, "256x120"),
+        ("a.mov", WriteSettings { codec: Some(Codec::Hevc), size: (14, 32), ..settings() }, "16x16"),
+        ("a.mp4", WriteSettings { size: (16386, 32), ..settings() }, "16384x16384"),
+        ("a.mkv", WriteSettings { size: (9460, 9460), ..settings() }, "9459x9459"),
         ("a.mp4", WriteSettings { has_alpha: true, ..settings() }, "alpha"),
         ("a.mkv", WriteSettings { depth: Depth::Float, ..settings() }, "float"),
         ("missing/a.mkv", settings(), "does not exist"),
     ];
     for (name, settings, word) in cases {
-        let error = VideoWriter::create(&ffmpeg, &folder.path().join(name), settings, &Unfinished::default());
+        let path = folder.path().join(name);
+        let checked = VideoWriter::check(&ffmpeg, &path, &settings);
+        let error = VideoWriter::create(&ffmpeg, &path, settings, &Unfinished::default());
         let error = error.unwrap_err().to_string();
         assert!(error.contains(word), "{name}: {error}");
+        // Of folders, only what writes there knows.
+        if !name.starts_with("missing") {
+            assert_eq!(checked.unwrap_err().to_string(), error, "{name}");
+        }
     }
     assert!(names(folder.path()).is_empty());
+}
+
+/// The least frames that each encoder takes.
+#[test]
+fn small_frames_are_written() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    for (codec, name, size) in [
+        (Codec::H264, "a.mp4", (2, 2)),
+        (Codec::Hevc, "a.mp4", (16, 16)),
+        (Codec::ProRes, "a.mov", (2, 1)),
+        (Codec::DnxHr, "a.mov", (256, 120)),
+        (Codec::Ffv1, "a.mkv", (4, 4)),
+        (Codec::Ffv1, "a.mkv", (5, 7)),
+        (Codec::Vp9, "a.webm", (2, 2)),
+        (Codec::Av1, "a.mp4", (2, 2)),
+        (Codec::Av1, "a.webm", (64, 64)),
+    ] {
+        let path = folder.path().join(name);
+        let settings = WriteSettings { codec: Some(codec), ..WriteSettings::new(size, rate()) };
+        match write(&ffmpeg, &path, &settings, 2) {
+            Ok(written) => assert_eq!(written.frames, 2, "{codec:?}"),
+            Err(VideoError::UnfitSize { .. }) if codec == Codec::Av1 => {
+                assert!(!ffmpeg.encoders().unwrap().iter().any(|name| name == "libaom-av1"));
+            }
+            Err(error) => panic!("{codec:?}: {error}"),
+        }
+    }
 }
 
 #[test]

@@ -280,6 +280,21 @@ fn frames_that_say_nothing_are_made_again_if_an_input_is_newer() {
     assert!(bench.bytes("out_2.tga") != made);
 }
 
+#[test]
+fn frames_of_a_formula_say_which_it_is() {
+    let bench = Bench::new();
+    let frames = ["out_#.png", "--to", "fisheye", "--size", "32", "--frames", "1-3", "--yaw", "0..9"];
+    bench.succeed(&[&["convert", "builtin:checker"], &frames[..]].concat());
+    let made: Vec<Vec<u8>> = (1..=3).map(|frame| bench.bytes(&format!("out_{frame}.png"))).collect();
+    std::fs::remove_file(bench.path("out_2.png")).unwrap();
+    let told = bench.fail(1, &[&["convert", "builtin:demo", "--resume"], &frames[..]].concat());
+    assert_says(&told, &["out_1.png was made with other inputs"]);
+    let again = bench.succeed(&[&["convert", "builtin:checker", "--resume", "--json"], &frames[..]].concat());
+    let report: Value = serde_json::from_str(&again).unwrap();
+    assert_eq!((&report["frames"], &report["skipped"]), (&1.into(), &2.into()));
+    assert!((1..=3).all(|frame| bench.bytes(&format!("out_{frame}.png")) == made[frame - 1]));
+}
+
 /// Makes a picture; what is made is kept when it is asked for again.
 #[track_caller]
 fn resumed(bench: &Bench, args: &[&str]) {

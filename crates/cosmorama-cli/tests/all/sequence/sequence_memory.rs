@@ -102,6 +102,16 @@ fn estimates_are_no_less_than_what_is_held_and_little_more() {
             ]
             .concat(),
         ),
+        ("formula", [&["convert", "builtin:checker", "o.png"][..], &dome("fulldome", "3072")].concat()),
+        (
+            "formula in frames",
+            [
+                &["convert", "builtin:checker", "o_#.png", "--frames", "1-3", "--yaw", "0..9"][..],
+                &dome("fulldome", "2048"),
+            ]
+            .concat(),
+        ),
+        ("directions", [&["convert", "builtin:direction-map", "o.exr"][..], &dome("equirect", "3072")].concat()),
         ("things", ["shade", "sky.exr", "ball.png", "--object", "sphere", "--size", "1024"].to_vec()),
     ];
     let figures: Vec<String> = cases

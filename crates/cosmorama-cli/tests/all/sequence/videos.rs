@@ -464,6 +464,15 @@ fn settings_of_videos_are_checked_before_work() {
         &refused(&bench, 2, ["film.mkv", "a_#.png"], &["--video-codec", "h264"]),
         &["--video-codec", "a_#.png is none"],
     );
+    let [small, odd] = ["128", "101"].map(|size| {
+        let codec = ["--video-codec", "dnxhr"];
+        bench.fail(2, &[&["convert", "film.mkv", "a.mov", "--to", "fulldome", "--size", size], &codec[..]].concat())
+    });
+    assert_says(
+        &small,
+        &["a.mov: dnxhr takes no frames of 128x128 pixels; expected 256x120 to", "--size", "--video-codec"],
+    );
+    assert_says(&odd, &["101x101 pixels; expected an even number of columns", "give such a --size"]);
     assert_says(&refused(&bench, 2, ["film.mkv", "a_#.png"], &["--fps", "24"]), &["--fps", "name the output .mp4"]);
     assert_says(&refused(&bench, 2, ["film.mkv", "a.mkv"], &["--resume"]), &["--resume", "whole or not at all"]);
     assert_says(&refused(&bench, 2, ["film.mkv", "a.avi"], &[]), &["a.avi", ".mkv"]);

@@ -78,7 +78,7 @@ impl Engine<'_> {
             let rests = self.rests(moments);
             return Ok(rests && behind.ask(place, |engine, light| engine.is_swept_at_once((place, light), moments))?);
         }
-        let is_sampled = job.filter.kind == FilterKind::Ewa && job.formula.is_none() && !job.is_balance_asked_for();
+        let is_sampled = job.filter.kind == FilterKind::Ewa && job.formula().is_none() && !job.is_balance_asked_for();
         Ok(is_sampled && self.is_solid() && self.is_complete(light))
     }
 

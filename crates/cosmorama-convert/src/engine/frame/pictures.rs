@@ -362,7 +362,7 @@ impl<'a> Engine<'a> {
     /// is done with its light, and each of its views has a plan.
     fn encoder_at_once(&self, file: usize, light: &FrameLight, making: &Making) -> Option<(&Encoder, [u8; 3])> {
         let (job, geometry) = (self.job, &making.layer.posed.geometry);
-        let is_alone = self.is_solid() && self.is_complete(light) && job.layers.is_plain() && job.formula.is_none();
+        let is_alone = self.is_solid() && self.is_complete(light) && job.layers.is_plain() && job.formula().is_none();
         let is_plain = is_alone && !job.is_blurred && !job.is_balance_asked_for();
         let encoder = self.writer.encoder_alone().filter(|_| is_plain)?;
         let background = encoder.rgb(job.light.background)?;
@@ -457,7 +457,7 @@ impl<'a> Engine<'a> {
     ) -> Result<Image<Rgba>> {
         let target = &posed.views[index];
         let share = shares.next(&target.view);
-        if let Some(world) = self.job.formula {
+        if let Some(world) = self.job.formula() {
             let image = formula::light(world, &target.view, &self.job.light.working.primaries);
             return if share.advance(1.0).is_break() { Err(self.stopped()) } else { Ok(image) };
         }

@@ -1,6 +1,7 @@
 //! Pictures of worlds by formula, and maps of directions.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use cosmorama::camera::View;
 use cosmorama::motion::LightSum;
@@ -14,10 +15,11 @@ use crate::engine::{FrameWords, Levels, Stage, Writer, WriterOptions};
 
 /// Makes a picture of a world by formula.
 pub(crate) fn picture(output: &OutputFile, world: BuiltinWorld, options: &WriterOptions) -> Result<()> {
-    let OutputFile { job, place, stages, path, .. } = *output;
+    let OutputFile { job, frame, place, stages, path, .. } = *output;
+    let origin = job.origin_of(frame)?.map(Arc::from);
     let levels = stages.alone(Stage::Filter, || levels(output, world))?;
     stages.alone(Stage::Encode, || {
-        let words = FrameWords { place, ..FrameWords::default() };
+        let words = FrameWords { place, origin, ..FrameWords::default() };
         Writer::new(&job.light, &job.layers.picture, options.clone()).save(words, levels, path, Threads::All)
     })
 }

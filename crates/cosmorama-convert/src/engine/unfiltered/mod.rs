@@ -14,6 +14,8 @@ use crate::target::TargetView;
 /// A file to make, and what is needed for it.
 pub(crate) struct OutputFile<'a> {
     pub(crate) job: &'a ConvertJob,
+    /// Number of the frame, if it has one.
+    pub(crate) frame: Option<u64>,
     /// Place of the frame among all that are made, from 0.
     pub(crate) place: usize,
     /// Target's views in the frame.

@@ -97,7 +97,7 @@ impl MadeVideos {
         false
     }
 
-    pub(crate) fn check(_: &[PathBuf], _: &VideoPlan, _: Option<&Videos>) -> Result<()> {
+    pub(crate) fn check(_: &[(PathBuf, (usize, usize))], _: &VideoPlan, _: Option<&Videos>) -> Result<()> {
         Ok(())
     }
 

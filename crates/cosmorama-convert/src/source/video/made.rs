@@ -16,7 +16,7 @@ use cosmorama_video::{
 
 use super::raw::{RawWriter, aside, foreign};
 use super::{DamagedFrames, PictureSink, RawKind, VideoPlan, Videos, described};
-use crate::diagnostic::{Code, Diagnostic, FPS, FRAMES, Result, VIDEO_CODEC, usage, usage_as};
+use crate::diagnostic::{Code, ConvertError, Diagnostic, FPS, FRAMES, Result, SIZE, VIDEO_CODEC, usage, usage_as};
 
 /// Videos that a conversion makes.
 #[derive(Debug, Default)]
@@ -62,15 +62,23 @@ struct Shown<'a> {
 const USUAL: FrameRate = FrameRate { frames: 30, seconds: 1 };
 
 impl MadeVideos {
-    /// Checks the settings of videos before anything is read for them.
-    pub(crate) fn check(outputs: &[PathBuf], plan: &VideoPlan, videos: Option<&Videos>) -> Result<()> {
+    /// Checks the settings of videos of these sizes before anything is read for them.
+    pub(crate) fn check(
+        outputs: &[(PathBuf, (usize, usize))],
+        plan: &VideoPlan,
+        videos: Option<&Videos>,
+    ) -> Result<()> {
         codec(plan)?;
-        for path in outputs.iter().filter(|path| RawKind::of(path).is_none()) {
-            if Container::of_path(path).is_none() {
-                let error = VideoError::UnknownContainer { path: path.clone() };
-                return Err(usage_as(Code::OutputFormat, error.to_string()));
-            }
-            found_ffmpeg(videos)?;
+        let films = || outputs.iter().filter(|(path, _)| RawKind::of(path).is_none());
+        if let Some((path, _)) = films().find(|(path, _)| Container::of_path(path).is_none()) {
+            return Err(unfit(VideoError::UnknownContainer { path: path.clone() }));
+        }
+        if films().next().is_none() {
+            return Ok(());
+        }
+        let ffmpeg = found_ffmpeg(videos)?;
+        for (path, size) in films() {
+            VideoWriter::check(&ffmpeg, path, &settings(plan, *size)?).map_err(unfit)?;
         }
         Ok(())
     }
@@ -119,19 +127,13 @@ impl MadeVideos {
                 continue;
             }
             let ffmpeg = found_ffmpeg(videos)?;
-            let colour = ColourTags::of(&plan.primaries, &plan.transfer);
+            let common = settings(plan, *size)?;
+            let is_hdr = common.colour.is_hdr();
             let settings = WriteSettings {
                 times,
-                depth: plan.depth,
-                has_alpha: plan.channels.has_alpha(),
-                colour,
-                hdr: source.map(|source| source.info.hdr).filter(|_| colour.is_hdr()).unwrap_or_default(),
-                spatial: described::tags(plan.to.as_ref()),
-                codec: codec(plan)?,
-                arguments: plan.settings.arguments.clone(),
+                hdr: source.map(|source| source.info.hdr).filter(|_| is_hdr).unwrap_or_default(),
                 source: carried(source, times, told),
-                frames: plan.frames.filter(|_| plan.settings.damaged != DamagedFrames::Skip),
-                ..WriteSettings::new(*size, Ratio::ONE)
+                ..common
             };
             let writer = VideoWriter::create(&ffmpeg, path, settings, unfinished).map_err(foreign)?;
             let video = MadeVideo { times: stamps.clone(), state: Mutex::new(state(Encoder::Film(Box::new(writer)))) };
@@ -270,6 +272,33 @@ fn rate_of(times: FrameTimes) -> Ratio {
 
 fn ratio(rate: FrameRate) -> Ratio {
     Ratio::new(rate.frames.into(), rate.seconds.into()).unwrap_or(Ratio::ONE)
+}
+
+/// Returns the settings of a video that do not depend on a source.
+fn settings(plan: &VideoPlan, size: (usize, usize)) -> Result<WriteSettings> {
+    Ok(WriteSettings {
+        depth: plan.depth,
+        has_alpha: plan.channels.has_alpha(),
+        colour: ColourTags::of(&plan.primaries, &plan.transfer),
+        spatial: described::tags(plan.to.as_ref()),
+        codec: codec(plan)?,
+        arguments: plan.settings.arguments.clone(),
+        frames: plan.frames.filter(|_| plan.settings.damaged != DamagedFrames::Skip),
+        ..WriteSettings::new(size, Ratio::ONE)
+    })
+}
+
+/// Returns the error about settings by which no video can be made, with what to change.
+fn unfit(error: VideoError) -> ConvertError {
+    match &error {
+        VideoError::UnfitSize { .. } => {
+            usage_as(Code::OutputFormat, format!("{error}; give such a {SIZE}, or another {VIDEO_CODEC}"))
+        }
+        VideoError::UnknownContainer { .. } | VideoError::CannotHold { .. } => {
+            usage_as(Code::OutputFormat, error.to_string())
+        }
+        _ => foreign(error).into(),
+    }
 }
 
 fn codec(plan: &VideoPlan) -> Result<Option<Codec>> {
