@@ -25,7 +25,7 @@ const ABOUT: Tolerance = Tolerance { place: 0.1, size: 0.1 };
 
 /// Greatest jump across rings that is left to interpolation, of white or of a pixel's own light where that is brighter. Half way
 /// between two rings it is off by half of that.
-const JUMP: f32 = 1.0 / 200.0;
+const JUMP: f32 = 1.0 / 180.0;
 
 impl Exposure {
     /// Renders the world through the open shutter: each pixel is the mean of what it sees on its way. What turns about one axis is
