@@ -29,6 +29,7 @@ pub(crate) struct Tally {
     clipped: Told,
     infinite: Told,
     alpha: Told,
+    cut: Told,
 }
 
 /// Pixels of one kind, and the files that hold some.
@@ -65,7 +66,7 @@ impl Tally {
     /// Adds the pixels of a frame.
     pub(crate) fn add(&mut self, job: &ConvertJob, frame: Option<u64>, light: &FrameLight) {
         let mut frames_files = BTreeSet::new();
-        for ((view, header, _), Counts { irregular, outside }) in job.input.present().zip(light.counts()) {
+        for ((view, header, _), Counts { irregular, outside, cut }) in job.input.present().zip(light.counts()) {
             let path = view.files.path(frame);
             if self.counted.contains(&path) {
                 continue;
@@ -74,6 +75,7 @@ impl Tally {
             self.clipped.add(if job.light.clips { *outside } else { 0 }, of, &path);
             self.infinite.add(irregular.infinite, of, &path);
             self.alpha.add(irregular.alpha, of, &path);
+            self.cut.add(*cut, of, &path);
             frames_files.insert(path);
         }
         self.counted.append(&mut frames_files);
@@ -97,10 +99,18 @@ impl Tally {
             1 => "the alpha of 1 pixel is below 0 or above 1, and counts as 0 or 1".to_owned(),
             pixels => format!("the alpha of {pixels} pixels is below 0 or above 1, and counts as 0 or 1"),
         };
+        let cut = |told: &Told| {
+            let pixels = if told.pixels == 1 { "1 pixel" } else { &format!("{} pixels", told.pixels) };
+            format!(
+                "colour exceeds alpha in {pixels}, and is cut to white there: integers of premultiplied colour cannot be read \
+                 brighter. Write such light as floats"
+            )
+        };
         let told = [
             self.clipped.warning(Code::OutOfGamut, clipped),
             self.infinite.warning(Code::TooBright, infinite),
             self.alpha.warning(Code::AlphaRange, alpha),
+            self.cut.warning(Code::AlphaStraight, cut),
         ];
         told.into_iter().flatten().collect()
     }

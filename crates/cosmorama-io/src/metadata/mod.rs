@@ -39,6 +39,9 @@ pub struct Metadata {
     pub complaints: Vec<String>,
     /// Other content of the file that is rightly not read, such as previews; a sentence each.
     pub notes: Vec<String>,
+    /// Number of partly transparent pixels whose colour exceeds alpha, of integers that the file says are premultiplied. Such
+    /// colour is cut to white when pixels are read, because integers are straight in memory.
+    pub cut_colours: usize,
     /// Names of channels that are not read.
     pub other_channels: Vec<String>,
     /// Channels beside the picture's, and parts, of formats that name them.

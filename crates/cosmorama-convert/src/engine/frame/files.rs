@@ -28,6 +28,8 @@ pub(crate) struct ViewImage {
     pub(crate) stamp: Option<Stamp>,
     /// Metadata for the outputs, which get those of the first view.
     pub(crate) carried: Option<Arc<Carried>>,
+    /// Pixels whose colour exceeded alpha and was cut, all told by the first view of a file.
+    pub(crate) cut: usize,
 }
 
 /// Selection of a frame's views.
@@ -147,7 +149,8 @@ impl<'a> FrameFile<'a> {
         let carried = job.light.carried(&file.metadata).filter(|_| views.iter().any(|view| view.index == 0));
         let view_image = |view: usize, image| {
             let (colours, carried) = (colours.clone(), carried.clone().filter(|_| view == 0));
-            ViewImage { view, path: path.clone(), image, colours, stamp, carried }
+            let cut = if view == views[0].index { file.metadata.cut_colours } else { 0 };
+            ViewImage { view, path: path.clone(), image, colours, stamp, carried, cut }
         };
         if let (&[FileView { index, .. }], None) = (&views[..], first.part) {
             return Ok(vec![view_image(index, file.image)]);

@@ -216,7 +216,7 @@ impl FrameLight {
                     let FileColours { transfer, conversion } = &image.colours;
                     let irregular = decoder.decode_rows(&image.image, transfer, first, into);
                     let converted = |conversion: &LightConversion| conversion.convert(into);
-                    Counts { irregular, outside: conversion.as_ref().map_or(irregular.negative, converted) }
+                    Counts { irregular, outside: conversion.as_ref().map_or(irregular.negative, converted), cut: 0 }
                 };
                 decode((images, spent, wanted), views(job, worlds), stages, rows)
             }
@@ -228,7 +228,7 @@ impl FrameLight {
                 let path = image.path.display();
                 bail!(NotANumber: "{path}: the {name} view holds no light; render it again: every pixel is NaN");
             }
-            self.counts[image.view] = counts;
+            self.counts[image.view] = Counts { cut: image.cut, ..counts };
             self.read[image.view] = Some((image.path.clone(), image.stamp));
         }
         Ok(())
@@ -280,12 +280,15 @@ pub(crate) struct Counts {
     pub(crate) irregular: IrregularPixels,
     /// Pixels outside of the working primaries, which have negative light in these.
     pub(crate) outside: usize,
+    /// Pixels whose colour exceeded alpha and was cut when the file was read.
+    pub(crate) cut: usize,
 }
 
 impl AddAssign for Counts {
     fn add_assign(&mut self, other: Self) {
         self.irregular = self.irregular + other.irregular;
         self.outside += other.outside;
+        self.cut += other.cut;
     }
 }
 

@@ -86,7 +86,7 @@ fn beside(path: &Path, decoder: &mut Decoder<Source<'_>>) -> Result<Option<Strin
 pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
     let file: Source<'_> = &mut *source;
     let mut decoder = opened(path, file)?;
-    let header = header(path, &mut decoder)?;
+    let mut header = header(path, &mut decoder)?;
     limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
     let mode = alpha_mode(&mut decoder);
     // Our own limit has been checked. The decoder's buffers are no larger than the image, or than a strip of it.
@@ -101,7 +101,8 @@ pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits, pool: &Fram
     if behind > 0 {
         return Err(IoError::several(path, FORMAT, 1 + behind, "pictures one behind the other"));
     }
-    let samples = samples(path, result, &header, mode)?;
+    let (samples, cut_colours) = samples(path, result, &header, mode)?;
+    header.metadata.cut_colours = cut_colours;
     let mut file = whole_image(path, header, samples)?;
     file.image = file.image.with_alpha_mode(mode);
     Ok(file)
@@ -192,20 +193,22 @@ fn alpha_mode(decoder: &mut Decoder<Source<'_>>) -> AlphaMode {
     }
 }
 
-fn samples(path: &Path, result: DecodingResult, header: &Header, mode: AlphaMode) -> Result<Samples, IoError> {
+/// Returns the samples, and the number of pixels whose colours were cut.
+fn samples(path: &Path, result: DecodingResult, header: &Header, mode: AlphaMode) -> Result<(Samples, usize), IoError> {
     let multiplied = mode == AlphaMode::Premultiplied && header.channels.has_alpha();
-    Ok(match result {
+    let mut cut = 0;
+    let samples = match result {
         DecodingResult::U8(samples) => {
             let mut samples = chosen(path, samples, header)?;
             if multiplied {
-                divide_by_alpha(path, &mut samples, header.channels)?;
+                cut = divide_by_alpha(path, &mut samples, header.channels)?;
             }
             Samples::U8(samples)
         }
         DecodingResult::U16(samples) => {
             let mut samples = chosen(path, samples, header)?;
             if multiplied {
-                divide_by_alpha(path, &mut samples, header.channels)?;
+                cut = divide_by_alpha(path, &mut samples, header.channels)?;
             }
             Samples::U16(samples)
         }
@@ -215,7 +218,8 @@ fn samples(path: &Path, result: DecodingResult, header: &Header, mode: AlphaMode
             Samples::Float(chosen(path, samples, header)?.into_iter().map(|sample| sample as f32).collect())
         }
         _ => return Err(IoError::unsupported(path, FORMAT, "another sample type than it said", EXPECTED)),
-    })
+    };
+    Ok((samples, cut))
 }
 
 /// Returns the samples of the selected channels; a pixel may have more.
@@ -232,13 +236,13 @@ fn chosen<S: Copy>(path: &Path, samples: Vec<S>, header: &Header) -> Result<Vec<
     Ok(samples.chunks_exact(stride).flat_map(|pixel| pixel[..count].iter().copied()).collect())
 }
 
-/// Divides integer colours by alpha, because integers are straight in memory. Refuses pictures in which colours exceed alpha in
-/// most of what is partly transparent: they would be cut to white.
+/// Divides integer colours by alpha, because integers are straight in memory. Colours that exceed alpha are cut to white; returns
+/// the number of such pixels. Refuses pictures in which they are most of what is partly transparent.
 fn divide_by_alpha<S: Copy + Into<u32> + TryFrom<u32>>(
     path: &Path,
     samples: &mut [S],
     channels: Channels,
-) -> Result<(), IoError> {
+) -> Result<usize, IoError> {
     let full = (1_u32 << (8 * size_of::<S>())) - 1;
     let (mut partial, mut above) = (0, 0);
     for pixel in samples.chunks_exact_mut(channels.count()) {
@@ -263,5 +267,5 @@ fn divide_by_alpha<S: Copy + Into<u32> + TryFrom<u32>>(
         );
         return Err(IoError::damaged(path, FORMAT, found));
     }
-    Ok(())
+    Ok(above)
 }
