@@ -198,10 +198,12 @@ impl Codec {
 /// Returns the least and the greatest size of frames that an encoder takes.
 fn bounds(encoder: &str) -> [(usize, usize); 2] {
     match encoder {
+        // Of VP9, in Debian's build, whose memory for frames ends there.
         "libx264" | "libvpx-vp9" => [(1, 1), (16384, 16384)],
         "libx265" => [(16, 16), (LONGEST, LONGEST)],
-        "dnxhd" => [(256, 120), (LONGEST, LONGEST)],
-        // Its slices have a pixel each, then.
+        // The decoder of ffmpeg takes no more rows than that.
+        "dnxhd" => [(256, 120), (LONGEST, 8192)],
+        // Each of its 4 × 4 slices has a pixel, then.
         "ffv1" => [(4, 4), (LONGEST, LONGEST)],
         "libsvtav1" => [(64, 64), (16384, 8704)],
         _ => [(1, 1), (LONGEST, LONGEST)],
@@ -253,7 +255,7 @@ mod tests {
         assert_eq!(found(Codec::Av1, (64, 8706)), Ok("libaom-av1"));
         assert_eq!(Codec::Av1.encoder_of_size(&["libsvtav1"], (62, 64)), Err("64x64 to 16384x8704".to_owned()));
         for (codec, least, most) in [
-            (Codec::DnxHr, (256, 120), (LONGEST, LONGEST)),
+            (Codec::DnxHr, (256, 120), (LONGEST, 8192)),
             (Codec::Hevc, (16, 16), (LONGEST, LONGEST)),
             (Codec::H264, (2, 2), (16384, 16384)),
             (Codec::Vp9, (2, 2), (16384, 16384)),
@@ -261,6 +263,7 @@ mod tests {
             assert!(found(codec, least).is_ok() && found(codec, most).is_ok(), "{codec:?}");
             assert!(found(codec, (least.0 - 2, most.1)).is_err() && found(codec, (most.0 + 2, least.1)).is_err());
         }
-        assert!(found(Codec::DnxHr, (256, 119)).is_err() && found(Codec::DnxHr, (254, 120)).is_err());
+        assert!(found(Codec::DnxHr, (256, 119)).is_err() && found(Codec::DnxHr, (256, 8193)).is_err());
+        assert!(found(Codec::ProRes, (LONGEST + 2, 16)).is_err() && found(Codec::DnxHr, (254, 120)).is_err());
     }
 }

@@ -39,14 +39,15 @@ impl std::fmt::Debug for VideoWriter {
     }
 }
 
-/// Longest side of a picture that encoders are given.
-pub(super) const LONGEST: usize = 1 << 16;
+/// Longest side of a picture that encoders are given: the greatest even number of 16 bits, as which MP4, ProRes and DNxHR hold sizes.
+pub(super) const LONGEST: usize = 65534;
 
 impl VideoWriter {
     /// Checks that a video can be made with these settings, before there is any frame of it.
     ///
     /// # Errors
-    /// When the extension or the settings fit no codec, or the encoder is missing in this build of ffmpeg.
+    /// When the extension, the size or the settings fit no codec, or the encoder is missing in this build of ffmpeg. The folder is not
+    /// looked at.
     pub fn check(ffmpeg: &Ffmpeg, path: &Path, settings: &WriteSettings) -> Result<(), VideoError> {
         let (container, codec, encoder) = chosen(ffmpeg, path, settings)?;
         let plan = &Plan::default();

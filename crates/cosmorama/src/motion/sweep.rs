@@ -23,8 +23,8 @@ const TURN: Tolerance = Tolerance { place: 0.01, size: 0.01 };
 /// Deviations at which ellipses are told by their rings: they are not exact either.
 const ABOUT: Tolerance = Tolerance { place: 0.1, size: 0.1 };
 
-/// Greatest jump across rings that is left to interpolation, of white or of a pixel's own light where that is brighter. Half way
-/// between two rings it is off by half of that.
+/// Greatest lone jump between the two rings beside a pixel that is left to interpolation, of white or of the pixel's own light where
+/// that is brighter. Half way between the rings it is off by half of that. A jump spread over two gaps counts an eighth.
 const JUMP: f32 = 1.0 / 150.0;
 
 impl Exposure {

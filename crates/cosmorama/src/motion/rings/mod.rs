@@ -178,8 +178,8 @@ impl<'a> Rings<'a> {
         Wanted::new([self.view.width(), self.view.height()], |[i, j]| marks[j / SIDE * across + i / SIDE])
     }
 
-    /// Renders the view. `tolerance` is the greatest jump from one ring to the next at which a pixel is kept: absolute for light up to 1,
-    /// and relative to brighter light.
+    /// Renders the view. `tolerance` is the greatest lone jump between the two rings beside a pixel, by their seventh difference, at
+    /// which it is kept: absolute for light up to 1, and relative to brighter light.
     pub(super) fn render(&self, texels: &[Rgba], tolerance: f32, progress: &dyn Progress) -> Result<Swept, Stopped> {
         let (world, filter) = self.resampler;
         let sampling = Sampling { wanted: Some(&self.wanted), lens: Some(self.lens) };
