@@ -261,7 +261,7 @@ fn check(path: &Path, settings: &WriteSettings) -> Result<(), VideoError> {
     };
     let (width, height) = settings.size;
     if !(1..=LONGEST).contains(&width) || !(1..=LONGEST).contains(&height) {
-        return Err(cannot(format!("frames of {width}x{height} pixels"), "1 to 65536 columns and rows"));
+        return Err(cannot(format!("frames of {width}x{height} pixels"), &format!("1 to {LONGEST} columns and rows")));
     }
     if settings.depth.is_float() {
         return Err(cannot(format!("frames of depth {}", settings.depth), "integers: depth 8, 10, 12 or 16"));
