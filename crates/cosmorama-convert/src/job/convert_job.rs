@@ -379,12 +379,15 @@ impl ConvertJob {
         }
         let views = self.target.views.iter().map(|target| (target.view.width(), target.view.height()));
         let needs = needs.with_bands(self.input.texels() as u64, views);
-        if self.is_by_strips() { needs.by_strips(self.target.format, self.target.files[0].sheet.size) } else { needs }
+        if self.is_by_strips() { needs.by_strips(self.target.format, self.target.files[0].sheet.size.1) } else { needs }
     }
 
-    /// Returns whether the picture is too large to be held as light, and of nothing but its own light: it is encoded strip by strip.
+    /// Returns whether the picture is too large to be held, and of nothing but its own light: it is encoded strip by strip.
     pub(crate) fn is_by_strips(&self) -> bool {
-        is_one_large(&self.target)
+        // Integers are samples, which are held for a format that is written as a whole.
+        let is_of_use = self.target.format.takes_rows() || self.fixed_codec().is_none();
+        is_of_use
+            && is_one_large(&self.target)
             && self.input.frames.len() == 1
             && !self.outputs.are_many()
             && !self.target.format.is_video()
@@ -395,7 +398,6 @@ impl ConvertJob {
             && self.content == Content::World
             && self.backdrop.is_none()
             && self.layers.is_plain()
-            && self.fixed_codec().is_none()
     }
 
     /// Returns the memory that a single frame needs in all: with the program, further channels, and what lies behind.

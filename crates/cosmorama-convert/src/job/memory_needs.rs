@@ -166,14 +166,14 @@ impl FrameNeeds {
         Self { samples: Samples { is_kept: true, ..self.samples }, ..self }
     }
 
-    /// Returns the needs of a picture that is made strip by strip: of light, only a strip is there at once, and of samples, too, if the
+    /// Returns the needs of a picture that is made strip by strip: only a strip of it is there at once, and of its samples, too, if the
     /// format is written row by row.
-    pub(crate) fn by_strips(self, format: Format, (width, height): (usize, usize)) -> Self {
-        let rows = STRIP.min(height);
-        let strip = area((width, rows)).saturating_mul(size_of::<Rgba>() as u64);
-        let part = self.encoded / height.max(1) as u64 * rows as u64;
-        let samples = if format.takes_rows() { part } else { self.encoded };
-        Self { pictures: samples, piece: strip, encoded: 0, ..self }
+    pub(crate) fn by_strips(self, format: Format, height: usize) -> Self {
+        let strip = |picture: u64| picture.div_ceil(height.max(1) as u64).saturating_mul(STRIP.min(height) as u64);
+        // Integers are samples themselves.
+        let samples = if self.encoded == 0 { self.pictures } else { self.encoded };
+        let samples = if format.takes_rows() { strip(samples) } else { samples };
+        Self { pictures: samples, piece: strip(self.pictures), encoded: 0, ..self }
     }
 
     /// Returns the bytes that a frame takes at once, at most, without those of the program. Samples of a single frame are freed as
@@ -367,16 +367,16 @@ const RESERVE: u64 = 16;
 /// Memory of a view beside its texels: its names, its header and its geometry, in several lists.
 const VIEW: u64 = 5 << 10;
 
-/// Pixels of a picture that are held as light at once, at most, where it can be made by strips.
+/// Pixels of a picture that are held at once, at most, where it can be made by strips.
 const MOST_HELD: u64 = 1 << 27;
 
-/// Returns whether a target is one picture of one view, too large to be held as light.
+/// Returns whether a target is one picture of one view, too large to be held.
 pub(crate) fn is_one_large(target: &Target) -> bool {
     let [file] = &target.files[..] else { return false };
     is_too_large(file.sheet.size) && file.sheet.pieces.len() == 1 && file.mips.is_empty()
 }
 
-/// Returns whether a picture of this size is too large to be held as light, where it can be made by strips.
+/// Returns whether a picture of this size is too large to be held, where it can be made by strips.
 pub(crate) fn is_too_large(size: (usize, usize)) -> bool {
     area(size) > MOST_HELD
 }

@@ -101,6 +101,13 @@ impl Picture<'_, '_> {
         }
     }
 
+    pub(crate) fn alpha_mode(&self) -> AlphaMode {
+        match self {
+            Self::Held(image) => image.alpha_mode(),
+            Self::Made(rows) => rows.alpha_mode,
+        }
+    }
+
     /// Visits rows from above, as parts of pictures: each is a picture, and those of its rows that are meant.
     pub(crate) fn visit<E: From<io::Error>>(
         &mut self,
@@ -151,7 +158,10 @@ mod tests {
             ("png", Channels::Grey, Depth::Ten),
             ("exr", Channels::Rgb, Depth::Half),
             ("exr", Channels::Rgba, Depth::Float),
-            ("tif", Channels::Rgb, Depth::Sixteen),
+            ("tif", Channels::Rgb, Depth::Eight),
+            ("tif", Channels::Rgba, Depth::Sixteen),
+            ("tif", Channels::GreyAlpha, Depth::Half),
+            ("tif", Channels::Grey, Depth::Float),
             ("hdr", Channels::Rgb, Depth::Float),
             ("tga", Channels::Rgba, Depth::Eight),
         ] {
@@ -175,7 +185,9 @@ mod tests {
 
     #[test]
     fn a_picture_whose_rows_end_is_no_file() {
-        for (end, depth) in [("exr", Depth::Half), ("png", Depth::Sixteen), ("hdr", Depth::Float)] {
+        for (end, depth) in
+            [("exr", Depth::Half), ("png", Depth::Sixteen), ("tif", Depth::Sixteen), ("hdr", Depth::Float)]
+        {
             let folder = tempfile::tempdir().unwrap();
             let image = picture(Channels::Rgb, depth);
             let make = &mut |rows: Range<usize>| {

@@ -105,11 +105,9 @@ impl Explanation {
         let prepared = reports.iter().map(|report| report.memory.levels as u64).max().unwrap_or(0);
         let needs = FrameNeeds::of_pictures(input, worlds, (pixels, largest), held).with_prepared(prepared);
         let needs = needs.with_bands(input.texels() as u64, self.pictures().iter().map(size));
-        // A single large picture of light is made by strips.
+        // A single large picture is made by strips.
         let single = match self.pictures() {
-            [picture] if is_too_large(size(picture)) && held != Held::INTEGERS => {
-                needs.by_strips(files.format(), size(picture))
-            }
+            [picture] if is_too_large(size(picture)) => needs.by_strips(files.format(), size(picture).1),
             _ => needs,
         };
         let plan = |report: &explain::Report| {

@@ -32,7 +32,7 @@ pub(crate) struct Engine<'a> {
     /// Rows of each view from which pictures are made.
     rows: Range<usize>,
     /// Encoder from 15 bits to 8, for jobs with opaque 8-bit pictures in and out.
-    codec: Option<FixedCodec>,
+    pub(super) codec: Option<FixedCodec>,
     /// World behind the input.
     pub(super) behind: Option<Box<Behind<'a>>>,
     /// Pose of the last frame: of all frames where nothing moves.
@@ -385,7 +385,7 @@ impl<'a> Engine<'a> {
         made.map_err(|Stopped| self.stopped())
     }
 
-    fn codes(
+    pub(super) fn codes(
         &self,
         index: usize,
         (worlds, codec): (&[FixedLight], &FixedCodec),

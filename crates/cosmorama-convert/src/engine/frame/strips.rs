@@ -1,4 +1,4 @@
-//! Pictures that are too large to be held as light. They are made strip by strip while they are written.
+//! Pictures that are too large to be held. They are made strip by strip while they are written.
 
 use std::ops::{ControlFlow, Range};
 use std::path::Path;
@@ -11,7 +11,7 @@ use cosmorama_io::pending::Hidden;
 
 use super::pictures::{Engine, Layer, Making};
 use crate::diagnostic::{ConvertError, Result, bail};
-use crate::engine::{BalancedLight, FrameLight, FrameWords, Posed, Shares};
+use crate::engine::{BalancedLight, FrameLight, FrameWords, Posed, Shares, Texels};
 use crate::job::STRIP;
 use crate::target::TargetView;
 
@@ -54,7 +54,11 @@ impl Engine<'_> {
         let posed = Posed::new(self.job, (whole.pose, vec![strip], false), &|_: f64| ControlFlow::Continue(()));
         let posed = Arc::new(posed.map_err(|_| self.stopped())?.0);
         let layer = Layer { place, posed, balanced: BalancedLight::default(), behind: None };
-        let image = self.render_view(0, light, &mut Making { layer, shares })?;
+        let mut making = Making { layer, shares };
+        if let (Texels::Fixed(worlds), Some(codec)) = (light.1.texels(), &self.codec) {
+            return Ok(EncodedImage::of_codes(self.codes(0, (worlds, codec), &mut making)?));
+        }
+        let image = self.render_view(0, light, &mut making)?;
         Ok(self.writer().encode(image, Threads::All))
     }
 }
@@ -83,14 +87,20 @@ mod tests {
         let samples = Samples::Float((0..128 * 64 * 3).map(wave).collect());
         let sky = EncodedImage::new(128, 64, Channels::Rgb, Depth::Float, samples).unwrap();
         cosmorama_io::write(path("sky.exr"), &sky, &WriteOptions::default()).unwrap();
+        let codes = Samples::U8((0..128 * 64 * 3).map(|sample| (sample * 37 % 251) as u8).collect());
+        let sky = EncodedImage::new(128, 64, Channels::Rgb, Depth::Eight, codes).unwrap();
+        cosmorama_io::write(path("sky.png"), &sky, &WriteOptions::default()).unwrap();
         let progress = &|_: f64| ControlFlow::Continue(());
-        for (to, output) in [
-            ("fulldome:tilt=10", "dome.png"),
-            ("fulldome", "dome.exr"),
-            ("perspective:fov=70,yaw=20,pitch=30,roll=5", "view.tif"),
-            ("omnimax", "frame.hdr"),
+        for (sky, to, output) in [
+            ("sky.exr", "fulldome:tilt=10", "dome.png"),
+            ("sky.exr", "fulldome", "dome.exr"),
+            ("sky.exr", "perspective:fov=70,yaw=20,pitch=30,roll=5", "view.tif"),
+            ("sky.exr", "omnimax", "frame.hdr"),
+            ("sky.png", "fulldome:tilt=10", "codes.png"),
+            ("sky.png", "fulldome", "upright.png"),
+            ("sky.png", "equirect", "panorama.jpg"),
         ] {
-            let conversion = Conversion::new(path("sky.exr"), path(output)).to(to.parse().unwrap());
+            let conversion = Conversion::new(path(sky), path(output)).to(to.parse().unwrap());
             let conversion = conversion.from("equirect".parse().unwrap());
             let conversion = conversion.size("300x1100".parse().unwrap()).existing(Existing::Replace);
             let checked = conversion.check().result.unwrap();
@@ -101,10 +111,11 @@ mod tests {
             let mut light = engine.frame_light();
             light.fill(job, None, (&mut images, Spent::Freed), (stages, &pool)).unwrap();
             let frame = &job.outputs.frames[0];
-            let Levels::Light(whole) = engine.render(frame, &light, progress).unwrap().remove(0) else {
-                panic!("{to}")
+            let whole = match engine.render(frame, &light, progress).unwrap().remove(0) {
+                Levels::Light(mut whole) => engine.writer().encode(whole.remove(0), Threads::All),
+                Levels::Codes(mut whole) => EncodedImage::of_codes(whole.remove(0)),
+                _ => panic!("{to}"),
             };
-            let whole = engine.writer().encode(whole.into_iter().next().unwrap(), Threads::All);
             let view = &job.target.views[0];
             let shares = || Shares::new(progress, std::iter::once(&view.view));
             let mut making = Making { layer: engine.layer(frame, progress).unwrap(), shares: shares() };
@@ -134,16 +145,20 @@ mod tests {
         let samples = Samples::U8(vec![90; 64 * 32 * 3]);
         let sky = EncodedImage::new(64, 32, Channels::Rgb, Depth::Eight, samples).unwrap();
         cosmorama_io::write(path("sky.png"), &sky, &WriteOptions::default()).unwrap();
-        for (output, memory, is_enough) in [
-            ("dome.png", "300M", true),
-            ("dome.exr", "300M", true),
-            ("dome.png", "150M", false),
-            ("dome.tif", "300M", false),
-            ("dome.tif", "2000M", true),
+        for (output, depth, memory, is_enough) in [
+            ("dome.png", Depth::Eight, "150M", true),
+            ("dome.png", Depth::Sixteen, "300M", true),
+            ("dome.png", Depth::Sixteen, "150M", false),
+            ("dome.exr", Depth::Half, "300M", true),
+            ("dome.tif", Depth::Sixteen, "300M", true),
+            ("dome.tif", Depth::Sixteen, "150M", false),
+            ("dome.hdr", Depth::Float, "300M", true),
+            ("dome.jpg", Depth::Eight, "300M", false),
+            ("dome.jpg", Depth::Eight, "1000M", true),
         ] {
             let conversion = Conversion::new(path("sky.png"), path(output)).to("fulldome:tilt=20".parse().unwrap());
             let conversion = conversion.from("equirect".parse().unwrap()).size("16384".parse().unwrap()).threads(2);
-            let depth = Some(if output == "dome.exr" { Depth::Half } else { Depth::Sixteen });
+            let depth = Some(depth);
             let checked = Conversion { depth, ..conversion }.memory(memory.parse().unwrap()).check().result;
             let told = checked.as_ref().err().map(ToString::to_string).unwrap_or_default();
             assert_eq!(checked.is_ok(), is_enough, "{output} in {memory}: {told}");
@@ -155,6 +170,7 @@ mod tests {
     fn steps_between(strips: &Samples, whole: &Samples) -> f32 {
         let farthest = |steps: &mut dyn Iterator<Item = f32>| steps.fold(0.0, f32::max);
         match (strips, whole) {
+            (Samples::U8(a), Samples::U8(b)) => farthest(&mut a.iter().zip(b).map(|(a, b)| f32::from(a.abs_diff(*b)))),
             (Samples::U16(a), Samples::U16(b)) => {
                 farthest(&mut a.iter().zip(b).map(|(a, b)| f32::from(a.abs_diff(*b))))
             }

@@ -6,7 +6,8 @@ use cosmorama::raster::{Channels, Depth, EncodedImage, FramePool, Primaries, Sam
 use super::rgbe;
 use crate::codec::behind::{next_bytes, skip_padding};
 use crate::codec::interface::{Codec, Sink, Source, held, whole_image};
-use crate::{Format, Header, ImageFile, IoError, Limits, Metadata, WriteOptions};
+use crate::header::Picture;
+use crate::{Format, Header, ImageFile, IoError, Limits, MadeRows, Metadata, WriteOptions};
 
 const FORMAT: Format = Format::Hdr;
 
@@ -54,7 +55,6 @@ impl Codec for Hdr {
         whole_image(path, header, Samples::Float(samples))
     }
 
-    /// Writes a picture. Light beyond the format's range is clamped; there is no alpha.
     fn encode(
         &self,
         path: &Path,
@@ -62,27 +62,41 @@ impl Codec for Hdr {
         image: &EncodedImage,
         options: &WriteOptions,
     ) -> Result<(), IoError> {
-        let (Samples::Float(samples), Channels::Rgb) = (image.samples(), image.channels()) else {
-            return Err(IoError::write(path, "Radiance HDR holds RGB floats"));
-        };
-        let mut encode = || {
-            write!(output, "#?RADIANCE\nSOFTWARE={}\n", options.metadata.software_to_write())?;
-            let mut remarks = options.metadata.remarks.iter();
-            remarks.try_for_each(|remark| writeln!(output, "{}={}", remark.name, remark.text))?;
-            write!(output, "{}FORMAT=32-bit_rle_rgbe\n\n", line_of(&options.metadata))?;
-            writeln!(output, "-Y {} +X {}", image.height(), image.width())?;
-            let (mut line, mut bytes) = (Vec::with_capacity(image.width()), Vec::new());
-            for row in samples.chunks_exact((image.width() * 3).max(1)) {
-                line.clear();
-                line.extend(row.chunks_exact(3).map(|pixel| rgbe::encode([pixel[0], pixel[1], pixel[2]])));
-                bytes.clear();
-                rgbe::write_line(&mut bytes, &line)?;
-                output.write_all(&bytes)?;
-            }
-            output.flush()
-        };
-        encode().map_err(|error| IoError::write(path, error))
+        write(output, Picture::Held(image), &options.metadata).map_err(|error| IoError::write(path, error))
     }
+
+    fn encode_rows(
+        &self,
+        path: &Path,
+        output: Sink<'_>,
+        rows: MadeRows<'_>,
+        options: &WriteOptions,
+    ) -> Result<(), IoError> {
+        write(output, Picture::Made(rows), &options.metadata).map_err(|error| IoError::write(path, error))
+    }
+}
+
+/// Writes a picture. Light beyond the format's range is clamped; there is no alpha.
+fn write(output: Sink<'_>, mut picture: Picture<'_, '_>, metadata: &Metadata) -> io::Result<()> {
+    write!(output, "#?RADIANCE\nSOFTWARE={}\n", metadata.software_to_write())?;
+    metadata.remarks.iter().try_for_each(|remark| writeln!(output, "{}={}", remark.name, remark.text))?;
+    write!(output, "{}FORMAT=32-bit_rle_rgbe\n\n", line_of(metadata))?;
+    let (width, height) = picture.size();
+    writeln!(output, "-Y {height} +X {width}")?;
+    let (mut line, mut bytes) = (Vec::with_capacity(width), Vec::new());
+    picture.visit(0..height, |image, rows| {
+        let (Samples::Float(samples), Channels::Rgb) = (image.samples(), image.channels()) else {
+            return Err(io::Error::other("Radiance HDR holds RGB floats"));
+        };
+        samples[rows.start * width * 3..rows.end * width * 3].chunks_exact((width * 3).max(1)).try_for_each(|row| {
+            line.clear();
+            line.extend(row.chunks_exact(3).map(|pixel| rgbe::encode([pixel[0], pixel[1], pixel[2]])));
+            bytes.clear();
+            rgbe::write_line(&mut bytes, &line)?;
+            output.write_all(&bytes)
+        })
+    })?;
+    output.flush()
 }
 
 /// Counts the pictures that follow one that has been read. Bytes that begin no picture are harmless padding.

@@ -4,8 +4,8 @@ use std::io::{Read, Seek, Write};
 
 use exif::{Context, Field, In, Tag as ExifTag};
 use tiff::decoder::{Decoder, IfdDecoder};
-use tiff::encoder::{DirectoryEncoder, TiffEncoder, TiffKind, TiffKindStandard};
-use tiff::tags::{ByteOrder, Tag, Type, ValueBuffer};
+use tiff::encoder::{DirectoryEncoder, TiffEncoder, TiffKind};
+use tiff::tags::{ByteOrder, IfdPointer, Tag, Type, ValueBuffer};
 use tiff::{Directory, TiffError};
 
 use crate::metadata::{LARGEST_EXIF, iptc, is_read, of_stored, stored};
@@ -93,11 +93,11 @@ impl Found {
 
 /// Places of the directories that a TIFF's own refers to.
 #[derive(Default)]
-pub(super) struct Places(Vec<(Tag, u32)>);
+pub(super) struct Places(Vec<(Tag, IfdPointer)>);
 
 /// Writes the directories of Exif and GPS.
-pub(super) fn write_directories<W: Write + Seek>(
-    encoder: &mut TiffEncoder<W>,
+pub(super) fn write_directories<W: Write + Seek, K: TiffKind>(
+    encoder: &mut TiffEncoder<W, K>,
     fields: &[Field],
 ) -> Result<Places, TiffError> {
     let mut places = Places::default();
@@ -108,21 +108,21 @@ pub(super) fn write_directories<W: Write + Seek>(
         }
         let mut directory = encoder.extra_directory()?;
         fields.iter().filter(of_context).try_for_each(|field| write_field(&mut directory, field))?;
-        places.0.push((pointer, directory.finish_with_offsets()?.offset));
+        places.0.push((pointer, directory.finish_with_offsets()?.pointer));
     }
     Ok(places)
 }
 
 /// Writes the tags of a TIFF's own directory.
-pub(super) fn write_tags<W: Write + Seek>(
-    tags: &mut DirectoryEncoder<'_, W, TiffKindStandard>,
+pub(super) fn write_tags<W: Write + Seek, K: TiffKind>(
+    tags: &mut DirectoryEncoder<'_, W, K>,
     metadata: &Metadata,
     (fields, places): (&[Field], &Places),
     size: (usize, usize),
 ) -> Result<(), TiffError> {
     let own = fields.iter().filter(|field| field.tag.0 == Context::Tiff);
     own.into_iter().try_for_each(|field| write_field(tags, field))?;
-    places.0.iter().try_for_each(|(pointer, place)| tags.write_tag(*pointer, *place))?;
+    places.0.iter().try_for_each(|(pointer, place)| tags.write_tag(*pointer, K::convert_offset(place.0)?))?;
     // The input's own description stays.
     let has_description =
         fields.iter().any(|field| (field.tag.0, field.tag.1) == (Context::Tiff, Tag::ImageDescription.to_u16()));

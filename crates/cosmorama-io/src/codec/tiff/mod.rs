@@ -10,8 +10,8 @@ use std::path::Path;
 use cosmorama::raster::{EncodedImage, FramePool};
 
 use crate::codec::interface::{Codec, Sink, Source};
-use crate::header::{Header, ImageFile};
-use crate::{IoError, Limits, WriteOptions};
+use crate::header::{Header, ImageFile, Picture};
+use crate::{IoError, Limits, MadeRows, WriteOptions};
 
 /// Codec of TIFF.
 pub(crate) struct Tiff;
@@ -32,6 +32,16 @@ impl Codec for Tiff {
         image: &EncodedImage,
         options: &WriteOptions,
     ) -> Result<(), IoError> {
-        writer::write(path, output, image, &options.metadata, options.compression)
+        writer::write(path, output, Picture::Held(image), options)
+    }
+
+    fn encode_rows(
+        &self,
+        path: &Path,
+        output: Sink<'_>,
+        rows: MadeRows<'_>,
+        options: &WriteOptions,
+    ) -> Result<(), IoError> {
+        writer::write(path, output, Picture::Made(rows), options)
     }
 }

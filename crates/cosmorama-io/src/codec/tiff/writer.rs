@@ -1,160 +1,263 @@
 use std::io::{Seek, Write};
-use std::marker::PhantomData;
 use std::path::Path;
 
-use bytemuck::cast_slice;
-use cosmorama::raster::{AlphaMode, Channels, EncodedImage, Samples};
+use bytemuck::{Pod, cast_slice};
+use cosmorama::raster::{AlphaMode, Channels, Depth, EncodedImage, Samples};
+use flate2::write::ZlibEncoder;
+use rayon::prelude::*;
 use tiff::TiffError;
-use tiff::encoder::colortype::ColorType;
-use tiff::encoder::{Compression as Packing, DeflateLevel, Predictor, TiffEncoder, TiffValue};
-use tiff::tags::{PhotometricInterpretation, SampleFormat, Tag};
+use tiff::encoder::{DirectoryEncoder, Rational, TiffEncoder, TiffKind, TiffKindBig, TiffKindStandard};
+use tiff::tags::{CompressionMethod, PhotometricInterpretation, Predictor, ResolutionUnit, SampleFormat, Tag};
 
 use super::carried;
 use super::reader::ICC_PROFILE;
-use crate::{Compression, IoError, Metadata};
+use crate::codec::interface::is_beside_others;
+use crate::header::Picture;
+use crate::{Compression, IoError, WriteOptions};
 
+/// Bytes of a strip before it is compressed, at least, unless the picture has fewer.
+const STRIP: usize = 1_000_000;
+
+/// Bytes of samples beside which all else finds room below 4 GiB, where the places of TIFF end.
+const MOST_SAMPLES: u64 = (1 << 32) - (1 << 28);
+
+/// Writes a picture as TIFF, or as BigTIFF where TIFF's places of 32 bits might not reach its end. The library's encoder compresses
+/// only pictures that are held whole, so strips are made here.
 pub(crate) fn write(
     path: &Path,
     output: impl Write + Seek,
-    image: &EncodedImage,
-    metadata: &Metadata,
-    compression: Compression,
+    picture: Picture<'_, '_>,
+    options: &WriteOptions,
 ) -> Result<(), IoError> {
-    let how = &How { metadata, compression };
-    let result = match image.samples() {
-        Samples::U8(samples) => by_channels::<Byte, _>(output, image, samples, how),
-        Samples::U16(samples) => by_channels::<Word, _>(output, image, samples, how),
-        Samples::Half(samples) => by_channels::<HalfBits, _>(output, image, cast_slice(samples), how),
-        Samples::Float(samples) => by_channels::<Single, _>(output, image, samples, how),
+    let (width, height) = picture.size();
+    let bytes = (row_bytes(width, &picture) as u64).saturating_mul(height as u64);
+    let result = if bytes > MOST_SAMPLES {
+        encode::<_, TiffKindBig>(output, picture, options)
+    } else {
+        encode::<_, TiffKindStandard>(output, picture, options)
     };
     result.map_err(|error| IoError::write(path, error))
 }
 
-/// Metadata and compression of a file to write.
-struct How<'a> {
-    metadata: &'a Metadata,
-    compression: Compression,
-}
-
-fn by_channels<S: Sample, W: Write + Seek>(
+fn encode<W: Write + Seek, K: TiffKind>(
     output: W,
-    image: &EncodedImage,
-    samples: &[S::Stored],
-    how: &How<'_>,
-) -> Result<(), TiffError>
-where
-    [S::Stored]: TiffValue,
-{
-    match image.channels() {
-        Channels::Grey => encode::<S, 1, W>(output, image, samples, how),
-        Channels::GreyAlpha => encode::<S, 2, W>(output, image, samples, how),
-        Channels::Rgb => encode::<S, 3, W>(output, image, samples, how),
-        Channels::Rgba => encode::<S, 4, W>(output, image, samples, how),
-    }
-}
-
-fn encode<S: Sample, const CHANNELS: usize, W: Write + Seek>(
-    output: W,
-    image: &EncodedImage,
-    samples: &[S::Stored],
-    how: &How<'_>,
-) -> Result<(), TiffError>
-where
-    [S::Stored]: TiffValue,
-{
-    let packing = match how.compression {
-        Compression::None => Packing::Uncompressed,
-        Compression::Fast | Compression::Balanced => Packing::Deflate(DeflateLevel::Fast),
-        Compression::High => Packing::Deflate(DeflateLevel::Balanced),
-    };
-    // Differences of neighbours only help a compression that follows.
-    let is_plain = S::FORMAT_IS_FLOAT || packing == Packing::Uncompressed;
-    let predictor = if is_plain { Predictor::None } else { Predictor::Horizontal };
-    let mut encoder = TiffEncoder::new(output)?.with_compression(packing).with_predictor(predictor);
-    let (width, height) = (u32::try_from(image.width())?, u32::try_from(image.height())?);
-    let size = (image.width(), image.height());
-    let exif = how.metadata.carried.exif.as_ref();
-    let fields = exif.map(|exif| exif.to_write(size, how.metadata)).unwrap_or_default();
+    mut picture: Picture<'_, '_>,
+    options: &WriteOptions,
+) -> Result<(), TiffError> {
+    let (size, metadata) = (picture.size(), &options.metadata);
+    let (channels, depth) = (picture.channels(), picture.depth());
+    let packing = Packing::new(options.compression, depth);
+    let rows = STRIP.div_ceil(row_bytes(size.0, &picture));
+    let mut encoder = TiffEncoder::<W, K>::new_generic(output)?;
+    let fields = metadata.carried.exif.as_ref().map(|exif| exif.to_write(size, metadata)).unwrap_or_default();
     let places = carried::write_directories(&mut encoder, &fields)?;
-    let mut file = encoder.new_image::<Pixel<S, CHANNELS>>(width, height)?;
-    let tags = file.encoder();
-    tags.write_tag(Tag::Software, &*how.metadata.software_to_write())?;
-    carried::write_tags(tags, how.metadata, (&fields, &places), size)?;
-    if image.channels().has_alpha() {
-        let kind: u16 = if image.alpha_mode() == AlphaMode::Premultiplied { 1 } else { 2 };
+    let mut tags = encoder.image_directory()?;
+    write_form(&mut tags, size, channels)?;
+    packing.write_tags(&mut tags)?;
+    tags.write_tag(Tag::RowsPerStrip, u32::try_from(rows)?)?;
+    tags.write_tag(Tag::Software, &*metadata.software_to_write())?;
+    carried::write_tags(&mut tags, metadata, (&fields, &places), size)?;
+    if channels.has_alpha() {
+        let kind: u16 = if picture.alpha_mode() == AlphaMode::Premultiplied { 1 } else { 2 };
         tags.write_tag(Tag::ExtraSamples, &[kind][..])?;
     }
-    if let Some(profile) = how.metadata.profile_to_write(image.channels(), image.depth()) {
+    if let Some(profile) = metadata.profile_to_write(channels, depth) {
         tags.write_tag(ICC_PROFILE, &profile[..])?;
     }
-    file.write_data(samples)
+    let strips = write_strips(&mut tags, &mut picture, (packing, rows))?;
+    write_samples(&mut tags, channels, depth)?;
+    tags.write_tag(Tag::StripOffsets, K::convert_slice(&strips.places))?;
+    tags.write_tag(Tag::StripByteCounts, K::convert_slice(&strips.lengths))?;
+    tags.finish()
 }
 
-/// A sample type. The encoder's own colour types lack halves and grey with alpha.
-trait Sample {
-    /// Type that the encoder writes.
-    type Stored: TiffValue + Copy;
-    const BITS: u16;
-    const FORMAT_IS_FLOAT: bool;
-    /// Returns the difference of neighbours, which compresses better.
-    fn difference(a: Self::Stored, b: Self::Stored) -> Self::Stored;
+/// Writes the tags of a picture's size and channels.
+fn write_form<W: Write + Seek, K: TiffKind>(
+    tags: &mut DirectoryEncoder<'_, W, K>,
+    (width, height): (usize, usize),
+    channels: Channels,
+) -> Result<(), TiffError> {
+    tags.write_tag(Tag::ImageWidth, u32::try_from(width)?)?;
+    tags.write_tag(Tag::ImageLength, u32::try_from(height)?)?;
+    let is_grey = matches!(channels, Channels::Grey | Channels::GreyAlpha);
+    let meaning = if is_grey { PhotometricInterpretation::BlackIsZero } else { PhotometricInterpretation::RGB };
+    tags.write_tag(Tag::PhotometricInterpretation, meaning.to_u16())?;
+    tags.write_tag(Tag::SamplesPerPixel, u16::try_from(channels.count())?)?;
+    tags.write_tag(Tag::XResolution, Rational { n: 1, d: 1 })?;
+    tags.write_tag(Tag::YResolution, Rational { n: 1, d: 1 })?;
+    tags.write_tag(Tag::ResolutionUnit, ResolutionUnit::None)
 }
 
-struct Byte;
-struct Word;
-struct HalfBits;
-struct Single;
+/// Writes the tags of the form of each sample.
+fn write_samples<W: Write + Seek, K: TiffKind>(
+    tags: &mut DirectoryEncoder<'_, W, K>,
+    channels: Channels,
+    depth: Depth,
+) -> Result<(), TiffError> {
+    let format = if depth.is_float() { SampleFormat::IEEEFP } else { SampleFormat::Uint };
+    tags.write_tag(Tag::BitsPerSample, &vec![depth.bytes() as u16 * 8; channels.count()][..])?;
+    tags.write_tag(Tag::SampleFormat, &vec![format.to_u16(); channels.count()][..])
+}
 
-impl Sample for Byte {
-    type Stored = u8;
-    const BITS: u16 = 8;
-    const FORMAT_IS_FLOAT: bool = false;
-    fn difference(a: u8, b: u8) -> u8 {
-        a.wrapping_sub(b)
+/// Places of strips in the file, and their bytes there.
+struct Strips<K: TiffKind> {
+    places: Vec<K::OffsetType>,
+    lengths: Vec<K::OffsetType>,
+}
+
+/// Writes the samples of a picture, in strips of so many rows.
+fn write_strips<W: Write + Seek, K: TiffKind>(
+    tags: &mut DirectoryEncoder<'_, W, K>,
+    picture: &mut Picture<'_, '_>,
+    (packing, rows): (Packing, usize),
+) -> Result<Strips<K>, TiffError> {
+    let mut strips = Strips { places: Vec::new(), lengths: Vec::new() };
+    let mut write = |samples: &[u8], strip: usize| -> Result<(), TiffError> {
+        for packed in packing.packed(samples, strip)? {
+            strips.places.push(K::convert_offset(tags.write_data(&packed[..])?)?);
+            strips.lengths.push(K::convert_offset(packed.len() as u64)?);
+        }
+        Ok(())
+    };
+    let (width, height) = picture.size();
+    let strip = rows * row_bytes(width, picture);
+    // As many strips as threads, which compress them side by side.
+    let together = if is_beside_others() { 1 } else { rayon::current_num_threads() } * strip;
+    let mut samples = Vec::new();
+    picture.visit::<TiffError>(0..height, |image, rows| {
+        for row in rows {
+            append_row(&mut samples, image, row, packing);
+            if samples.len() >= together {
+                write(&samples, strip)?;
+                samples.clear();
+            }
+        }
+        Ok(())
+    })?;
+    write(&samples, strip)?;
+    Ok(strips)
+}
+
+/// Compression of samples, and what of them is compressed.
+#[derive(Clone, Copy)]
+struct Packing {
+    /// Level of deflate, if samples are compressed.
+    deflate: Option<flate2::Compression>,
+    /// Whether differences of neighbours are written, which are compressed better.
+    differences: bool,
+}
+
+impl Packing {
+    fn new(compression: Compression, depth: Depth) -> Self {
+        let deflate = match compression {
+            Compression::None => None,
+            Compression::Fast | Compression::Balanced => Some(flate2::Compression::fast()),
+            Compression::High => Some(flate2::Compression::default()),
+        };
+        Self { deflate, differences: deflate.is_some() && !depth.is_float() }
+    }
+
+    fn write_tags<W: Write + Seek, K: TiffKind>(self, tags: &mut DirectoryEncoder<'_, W, K>) -> Result<(), TiffError> {
+        let method = if self.deflate.is_some() { CompressionMethod::Deflate } else { CompressionMethod::None };
+        tags.write_tag(Tag::Compression, method.to_u16())?;
+        let predictor = if self.differences { Predictor::Horizontal } else { Predictor::None };
+        tags.write_tag(Tag::Predictor, predictor.to_u16())
+    }
+
+    /// Returns strips of so many bytes as they are written; the last may have fewer.
+    fn packed(self, samples: &[u8], strip: usize) -> Result<Vec<Vec<u8>>, TiffError> {
+        let pack = |strip: &[u8]| -> Result<Vec<u8>, TiffError> {
+            let Some(level) = self.deflate else { return Ok(strip.to_vec()) };
+            let mut encoder = ZlibEncoder::new(Vec::new(), level);
+            encoder.write_all(strip)?;
+            Ok(encoder.finish()?)
+        };
+        if is_beside_others() {
+            samples.chunks(strip).map(pack).collect()
+        } else {
+            samples.par_chunks(strip).map(pack).collect()
+        }
     }
 }
 
-impl Sample for Word {
-    type Stored = u16;
-    const BITS: u16 = 16;
-    const FORMAT_IS_FLOAT: bool = false;
-    fn difference(a: u16, b: u16) -> u16 {
-        a.wrapping_sub(b)
+/// Appends the samples of a row, or their differences, as the file has them.
+fn append_row(into: &mut Vec<u8>, image: &EncodedImage, row: usize, packing: Packing) {
+    let channels = image.channels().count();
+    let count = image.width() * channels;
+    let place = row * count..(row + 1) * count;
+    match image.samples() {
+        Samples::U8(samples) if packing.differences => {
+            append_differences(into, &samples[place], channels, u8::wrapping_sub)
+        }
+        Samples::U16(samples) if packing.differences => {
+            append_differences(into, &samples[place], channels, u16::wrapping_sub);
+        }
+        Samples::U8(samples) => into.extend_from_slice(&samples[place]),
+        Samples::U16(samples) => into.extend_from_slice(cast_slice(&samples[place])),
+        Samples::Half(samples) => into.extend_from_slice(cast_slice(&samples[place])),
+        Samples::Float(samples) => into.extend_from_slice(cast_slice(&samples[place])),
     }
 }
 
-impl Sample for HalfBits {
-    type Stored = u16;
-    const BITS: u16 = 16;
-    const FORMAT_IS_FLOAT: bool = true;
-    fn difference(a: u16, b: u16) -> u16 {
-        a.wrapping_sub(b)
-    }
+/// Appends the first pixel, and of the others what is more than in the pixel before.
+fn append_differences<S: Pod>(into: &mut Vec<u8>, row: &[S], channels: usize, minus: fn(S, S) -> S) {
+    into.extend_from_slice(cast_slice(&row[..channels]));
+    let differences: Vec<S> = row.iter().zip(&row[channels..]).map(|(before, now)| minus(*now, *before)).collect();
+    into.extend_from_slice(cast_slice(&differences));
 }
 
-impl Sample for Single {
-    type Stored = f32;
-    const BITS: u16 = 32;
-    const FORMAT_IS_FLOAT: bool = true;
-    fn difference(a: f32, b: f32) -> f32 {
-        a - b
-    }
+fn row_bytes(width: usize, picture: &Picture<'_, '_>) -> usize {
+    width * picture.channels().count() * picture.depth().bytes()
 }
 
-/// A pixel of so many samples.
-struct Pixel<S, const CHANNELS: usize>(PhantomData<S>);
+#[cfg(test)]
+mod tests {
+    use std::io::Cursor;
 
-impl<S: Sample, const CHANNELS: usize> ColorType for Pixel<S, CHANNELS> {
-    type Inner = S::Stored;
-    const TIFF_VALUE: PhotometricInterpretation =
-        if CHANNELS >= 3 { PhotometricInterpretation::RGB } else { PhotometricInterpretation::BlackIsZero };
-    const BITS_PER_SAMPLE: &'static [u16] = &[S::BITS; CHANNELS];
-    const SAMPLE_FORMAT: &'static [SampleFormat] =
-        if S::FORMAT_IS_FLOAT { &[SampleFormat::IEEEFP; CHANNELS] } else { &[SampleFormat::Uint; CHANNELS] };
+    use half::f16;
 
-    fn horizontal_predict(row: &[Self::Inner], result: &mut Vec<Self::Inner>) {
-        let first = CHANNELS.min(row.len());
-        result.extend_from_slice(&row[..first]);
-        result.extend(row.iter().zip(&row[first..]).map(|(before, now)| S::difference(*now, *before)));
+    use super::*;
+    use crate::{Limits, Metadata, read_from};
+
+    /// Columns and rows of a picture of more than one strip in all depths.
+    const SIZE: (usize, usize) = (501, 1100);
+
+    fn picture(channels: Channels, depth: Depth) -> EncodedImage {
+        let codes = (0..SIZE.0 * SIZE.1 * channels.count()).map(|at| (at * at % 65521) as u16);
+        let samples = match depth {
+            Depth::Eight => Samples::U8(codes.map(|code| (code >> 8) as u8).collect()),
+            Depth::Half => Samples::Half(codes.map(|code| f16::from_f32(f32::from(code))).collect()),
+            Depth::Float => Samples::Float(codes.map(f32::from).collect()),
+            _ => Samples::U16(codes.collect()),
+        };
+        EncodedImage::new(SIZE.0, SIZE.1, channels, depth, samples).unwrap()
+    }
+
+    #[test]
+    fn files_of_either_kind_of_places_are_read_as_they_were_written() {
+        for (channels, depth) in [
+            (Channels::Rgb, Depth::Eight),
+            (Channels::GreyAlpha, Depth::Eight),
+            (Channels::Rgba, Depth::Sixteen),
+            (Channels::Grey, Depth::Float),
+            (Channels::Rgb, Depth::Half),
+        ] {
+            for compression in [Compression::None, Compression::Balanced, Compression::High] {
+                let image = picture(channels, depth);
+                let metadata = Metadata { origin: Some("long enough to lie elsewhere".into()), ..Metadata::default() };
+                let options = WriteOptions { compression, metadata, ..WriteOptions::default() };
+                let (mut small, mut big) = (Cursor::new(Vec::new()), Cursor::new(Vec::new()));
+                encode::<_, TiffKindStandard>(&mut small, Picture::Held(&image), &options).unwrap();
+                encode::<_, TiffKindBig>(&mut big, Picture::Held(&image), &options).unwrap();
+                for (file, version) in [(small.into_inner(), 42), (big.into_inner(), 43)] {
+                    let what = format!("{channels}, {depth}, {compression:?}, version {version}");
+                    assert_eq!(u16::from_ne_bytes([file[2], file[3]]), version);
+                    let read = read_from(Cursor::new(&file), Path::new("a.tif"), &Limits::memory(1 << 28)).unwrap();
+                    assert!(read.image.samples() == image.samples(), "{what}");
+                    assert_eq!((read.image.channels(), read.image.depth()), (channels, depth), "{what}");
+                    assert_eq!(read.metadata.origin, options.metadata.origin, "{what}");
+                }
+            }
+        }
     }
 }
