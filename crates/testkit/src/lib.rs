@@ -18,7 +18,7 @@ pub use forms::Form;
 pub use frames::{cube, cube_face, equirect, fisheye, omnimax, partial_worlds, perspective, turned, whole_worlds};
 pub use kernels::Kernel;
 pub use light::{light_by_direction, light_by_texel, position_error};
-pub use mutants::Mutants;
+pub use mutants::{Mutants, say_premultiplied};
 pub use round_trip::RoundTrip;
 pub use shared::shared;
 pub use sky::{Sky, power};

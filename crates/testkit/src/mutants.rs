@@ -1,5 +1,7 @@
 //! Damaged copies of good files, for the tests of readers.
 
+use std::path::Path;
+
 /// Numbers that break arithmetic: too large, too small, none at all.
 const NUMBERS: [&str; 18] = [
     "0",
@@ -126,6 +128,19 @@ impl Iterator for Mutants<'_> {
         }
         Some(bytes)
     }
+}
+
+/// Makes a TIFF with straight alpha say that its colours are premultiplied by it.
+///
+/// # Panics
+/// If it has no alpha.
+pub fn say_premultiplied(path: &Path) {
+    let mut bytes = std::fs::read(path).unwrap();
+    // The tag ExtraSamples: one short number, 2 for straight alpha and 1 for premultiplied colours.
+    let tag = [0x52, 0x01, 0x03, 0x00, 0x01, 0x00, 0x00, 0x00, 0x02];
+    let at = bytes.windows(tag.len()).position(|window| window == tag).unwrap();
+    bytes[at + tag.len() - 1] = 1;
+    std::fs::write(path, bytes).unwrap();
 }
 
 #[cfg(test)]

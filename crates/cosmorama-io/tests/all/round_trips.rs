@@ -3,7 +3,7 @@
 use std::io::Cursor;
 
 use crate::common::picture;
-use cosmorama::raster::{AlphaMode, Channels, Depth, EncodedImage, Samples, Transfer};
+use cosmorama::raster::{Channels, Depth, EncodedImage, Samples, Transfer};
 use cosmorama_io::{
     EnvMap, Format, Limits, Metadata, Remark, Window, WriteOptions, probe, probe_from, read, read_from, write,
     write_levels, write_planes, write_to,
@@ -254,7 +254,7 @@ fn a_glow_with_alpha_zero_survives_exr_and_tiff() {
     let folder = tempfile::tempdir().unwrap();
     let samples = Samples::Float(vec![3.0, 2.0, 1.0, 0.0]);
     let image = EncodedImage::new(1, 1, Channels::Rgba, Depth::Float, samples).unwrap();
-    let image = image.with_alpha_mode(AlphaMode::Premultiplied);
+    let image = image.with_alpha_mode(cosmorama::raster::AlphaMode::Premultiplied);
     for extension in ["exr", "tif"] {
         let path = folder.path().join(format!("a.{extension}"));
         write(&path, &image, &WriteOptions::default()).unwrap();
@@ -269,7 +269,8 @@ fn integers_brighter_than_their_alpha_are_no_premultiplied_tiff() {
     let read_back = |grey: fn(u8) -> u8| {
         let samples = (0..=255).flat_map(|alpha| [grey(alpha), grey(alpha), grey(alpha), alpha]).collect();
         let image = EncodedImage::new(16, 16, Channels::Rgba, Depth::Eight, Samples::U8(samples)).unwrap();
-        write(&path, &image.with_alpha_mode(AlphaMode::Premultiplied), &WriteOptions::default()).unwrap();
+        write(&path, &image, &WriteOptions::default()).unwrap();
+        testkit::say_premultiplied(&path);
         read(&path, &Limits::default()).map(|file| file.metadata.cut_colours).map_err(|error| error.to_string())
     };
     assert_eq!(read_back(|alpha| alpha), Ok(0));

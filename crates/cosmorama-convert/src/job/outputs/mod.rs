@@ -188,6 +188,8 @@ pub(crate) struct Space {
     pub(crate) free: Option<u64>,
     /// Whether a later run makes what does not fit.
     is_resumable: bool,
+    /// Whether the disk may run full long after the work has begun.
+    is_long: bool,
 }
 
 impl Space {
@@ -207,26 +209,28 @@ impl Space {
         let folder = folder.filter(|_| !job.outputs.is_passed_on);
         let free = folder.and_then(free_space).map(|free| free.saturating_add(replaced));
         let all = frame.saturating_mul(frames.len() as u64);
-        Self { frame, all, free, is_resumable: job.is_resumable() }
+        let is_long = frames.len() > 1 || job.is_by_strips();
+        Self { frame, all, free, is_resumable: job.is_resumable(), is_long }
     }
 
-    /// Returns the warning about a sequence that does not fit.
+    /// Returns the warning about a sequence, or a large picture, that does not fit.
     pub(crate) fn warning(self, outputs: &Outputs) -> Option<Diagnostic> {
-        let free = self.free.filter(|free| *free < self.all && outputs.frames.len() > 1)?;
+        let free = self.free.filter(|free| *free < self.all && self.is_long)?;
         let path = outputs.paths().next()?;
         let fitting = free / self.frame.max(1);
-        let then = if self.is_resumable {
+        let (frames, needed, free, path) = (outputs.frames.len(), human(self.all), human(free), path.display());
+        let (what, room) = match frames {
+            1 => ("the picture needs".to_owned(), String::new()),
+            _ => (format!("{frames} frames need"), format!(", room for about {fitting}")),
+        };
+        let then = if self.is_resumable && frames > 1 {
             format!("the frame is named, and {RESUME} goes on")
         } else {
             "nothing is left of it".to_owned()
         };
         let message = format!(
-            "{} frames need about {} of disk, but only {} are free where {} goes, room for about {fitting}; free some, or write elsewhere. \
-             If it runs full, {then}",
-            outputs.frames.len(),
-            human(self.all),
-            human(free),
-            path.display()
+            "{what} about {needed} of disk, but only {free} are free where {path} goes{room}; free some, or write elsewhere. If it runs full, \
+             {then}"
         );
         Some(Diagnostic::warning(Code::DiskSpace, message))
     }
@@ -386,17 +390,22 @@ mod tests {
         let frame =
             |number: u64| FrameOutputs { frame: Some(number), files: vec![(0, format!("dome_{number}.png").into())] };
         let of = |count: u64| Outputs { frames: (1..=count).map(frame).collect(), ..Outputs::default() };
-        let told = |free: Option<u64>, count: u64| {
-            let warning = Space { frame: 1 << 30, all: count << 30, free, is_resumable: true }.warning(&of(count))?;
+        let told = |free: Option<u64>, count: u64, is_long: bool| {
+            let space = Space { frame: 1 << 30, all: count << 30, free, is_resumable: true, is_long };
+            let warning = space.warning(&of(count))?;
             Some((warning.code, warning.to_string()))
         };
-        let (code, message) = told(Some(25 << 28), 10).unwrap();
+        let (code, message) = told(Some(25 << 28), 10, true).unwrap();
         assert_eq!(code, Code::DiskSpace);
         let words = ["10 frames need about 10.0 GiB", "only 6.2 GiB are free", "dome_1.png", "room for about 6"];
         words.into_iter().for_each(|words| assert!(message.contains(words), "{message}"));
-        assert_eq!(told(Some(10 << 30), 10), None);
-        assert_eq!(told(None, 10), None, "nobody knows");
-        assert_eq!(told(Some(1), 1), None, "a picture that does not fit fails soon enough");
+        assert_eq!(told(Some(10 << 30), 10, true), None);
+        assert_eq!(told(None, 10, true), None, "nobody knows");
+        assert_eq!(told(Some(1), 1, false), None, "a picture that does not fit fails soon enough");
+        let (_, message) = told(Some(1 << 29), 1, true).unwrap();
+        let words =
+            ["the picture needs about 1.0 GiB", "512.0 MiB are free where dome_1.png goes;", "nothing is left of it"];
+        words.into_iter().for_each(|words| assert!(message.contains(words), "{message}"));
     }
 
     #[test]
