@@ -31,6 +31,8 @@ pub use diagnostic::{
 };
 pub use engine::{CpuSeconds, InterpolationReport, LightReport};
 pub use input::{Builtin, Input, InputView, Listed, face_set, is_one_file, listed};
+#[cfg(fuzzing)]
+pub use job::compared_origins;
 pub use job::{Remade, check_apart, real_path, refuse_existing};
 pub use packing::{Place, face_placement};
 pub use settings::{

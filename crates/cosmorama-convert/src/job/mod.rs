@@ -19,6 +19,8 @@ pub(crate) use resume::Resumed;
 pub(crate) use content::Content;
 pub(crate) use convert_job::{ConvertJob, Purpose};
 pub(crate) use memory_needs::{BAND, FrameNeeds, Held, STRIP, is_too_large, program_bytes};
+#[cfg(fuzzing)]
+pub use origin::compared_origins;
 pub(crate) use origin::settings_of;
 pub(crate) use outputs::{FrameOutputs, Outputs, Space, compressed, files_read};
 pub(crate) use queue_depth::{FrameMemory, QueueDepth};

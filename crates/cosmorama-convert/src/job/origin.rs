@@ -150,6 +150,12 @@ pub(crate) fn differences(found: &str, expected: &str) -> Vec<String> {
     differ.filter_map(|part| Some(part.split_once(' ')?.0.to_owned())).collect()
 }
 
+/// Returns the names of the parts in which two origins differ, and the first one's settings: fuzzing compares them without a conversion.
+#[cfg(fuzzing)]
+pub fn compared_origins<'a>(found: &'a str, expected: &str) -> (Vec<String>, Option<&'a str>) {
+    (differences(found, expected), settings_of(found))
+}
+
 /// Returns the size of a view, its limits, and the directions at a lattice of its pixels.
 fn seen(view: &View) -> impl Debug + use<> {
     let (width, height) = (view.width(), view.height());

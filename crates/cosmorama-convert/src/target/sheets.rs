@@ -2,13 +2,13 @@ use std::path::{Path, PathBuf};
 
 use cosmorama::camera::View;
 use cosmorama::layout::Eye;
-use cosmorama_io::{EnvMap, FacePattern, FaceSet, Format, Naming, Window};
+use cosmorama_io::{EnvMap, FacePattern, FaceSet, Format, IoError, Naming, Window};
 use cosmorama_spec::{Cube, Packing, Shape, Size, Spec};
 
 use crate::diagnostic::{Code, MIPS, Result, SIZE, TO, usage, usage_as};
 use crate::packing::Place;
 use crate::settings::{Conversion, GeometrySettings};
-use crate::source::video::{MadeVideos, RawKind, is_video};
+use crate::source::video::{MadeVideos, RawKind, extensions, is_video};
 use crate::source::{Name, ViewFiles};
 use crate::target::Picture;
 use crate::target::picture::world_of;
@@ -204,7 +204,12 @@ fn format_of(output: &Name) -> Result<Format> {
     if is_video(path) {
         return Ok(RawKind::of(path).map_or(Format::Video, RawKind::format));
     }
-    Format::from_extension(path).map_err(|error| usage_as(Code::OutputFormat, error.to_string()))
+    let is_folder = path.is_dir() || output.ends_with('/');
+    Format::from_extension(path).map_err(|error| {
+        let is_unknown = matches!(error, IoError::UnknownExtension { .. }) && !is_folder;
+        let videos = if is_unknown { extensions() } else { "" };
+        usage_as(Code::OutputFormat, format!("{error}{videos}"))
+    })
 }
 
 /// Refuses names that contain an invalid marker, which would become part of a file's name. Existing folders may have

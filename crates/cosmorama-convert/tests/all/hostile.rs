@@ -152,40 +152,49 @@ fn specs_make_views_or_say_why_not() {
 #[test]
 fn a_damaged_frame_is_never_taken_for_whole() {
     let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name);
     for frame in 1..=2 {
         picture(folder.path(), &format!("sky_{frame}.png"), "equirect", "32");
     }
-    for extension in ["png", "exr", "tif", "jpg", "hdr", "tga"] {
-        let name = |frame: &str| path(&format!("dome_{frame}.{extension}"));
-        let run = |existing: Existing| {
-            let conversion = Conversion::new(path("sky_#.png").display().to_string(), name("#").display().to_string());
-            let conversion = conversion.from("equirect".parse().unwrap()).to("fulldome".parse().unwrap());
-            let conversion = conversion.size("12".parse().unwrap()).existing(existing).threads(1);
-            conversion.check().result.and_then(|checked| checked.run(&mut Quiet))
-        };
-        run(Existing::Replace).unwrap();
-        let good = std::fs::read(name("2")).unwrap();
-        let words = ["cosmorama", ", pose ", "geometry 00000000"];
-        for (mutant, damaged) in Mutants::new(&good, &words, 9).take(Mutants::count(60)).enumerate() {
-            std::fs::write(name("2"), &damaged).unwrap();
-            let resumed = run(Existing::Resume);
-            let after = std::fs::read(name("2")).unwrap();
-            if resumed.is_err() {
-                assert_eq!(after, damaged, "{extension}, mutant {mutant}: refused, but changed");
-                continue;
-            }
-            let file = read(name("2"), &Limits::default()).unwrap();
-            assert_eq!((file.image.width(), file.image.height()), (12, 12), "{extension}, mutant {mutant}");
-            // The last bytes of a TGA are a footer that no one needs.
-            let needed = if extension == "tga" { good.len() - 26 } else { good.len() };
-            let is_cut_off = good.starts_with(&damaged) && damaged.len() < needed;
-            assert!(
-                !is_cut_off || after == good,
-                "{extension}, mutant {mutant}: cut to {} of {}",
-                damaged.len(),
-                good.len()
-            );
+    // Each waits for the disk most of the time.
+    std::thread::scope(|scope| {
+        for extension in ["png", "exr", "tif", "jpg", "hdr", "tga"] {
+            let folder = folder.path();
+            scope.spawn(move || damaged_frames_are_made_again(folder, extension));
         }
+    });
+}
+
+/// Makes two frames of a format, and resumes after each damage to the second.
+fn damaged_frames_are_made_again(folder: &Path, extension: &str) {
+    let path = |name: &str| folder.join(name);
+    let name = |frame: &str| path(&format!("dome_{frame}.{extension}"));
+    let run = |existing: Existing| {
+        let conversion = Conversion::new(path("sky_#.png").display().to_string(), name("#").display().to_string());
+        let conversion = conversion.from("equirect".parse().unwrap()).to("fulldome".parse().unwrap());
+        let conversion = conversion.size("12".parse().unwrap()).existing(existing).threads(1);
+        conversion.check().result.and_then(|checked| checked.run(&mut Quiet))
+    };
+    run(Existing::Replace).unwrap();
+    let good = std::fs::read(name("2")).unwrap();
+    let words = ["cosmorama", ", pose ", "geometry 00000000"];
+    for (mutant, damaged) in Mutants::new(&good, &words, 9).take(Mutants::count(60)).enumerate() {
+        std::fs::write(name("2"), &damaged).unwrap();
+        let resumed = run(Existing::Resume);
+        let after = std::fs::read(name("2")).unwrap();
+        if resumed.is_err() {
+            assert_eq!(after, damaged, "{extension}, mutant {mutant}: refused, but changed");
+            continue;
+        }
+        let file = read(name("2"), &Limits::default()).unwrap();
+        assert_eq!((file.image.width(), file.image.height()), (12, 12), "{extension}, mutant {mutant}");
+        // The last bytes of a TGA are a footer that no one needs.
+        let needed = if extension == "tga" { good.len() - 26 } else { good.len() };
+        let is_cut_off = good.starts_with(&damaged) && damaged.len() < needed;
+        assert!(
+            !is_cut_off || after == good,
+            "{extension}, mutant {mutant}: cut to {} of {}",
+            damaged.len(),
+            good.len()
+        );
     }
 }

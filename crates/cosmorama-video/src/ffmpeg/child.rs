@@ -9,7 +9,10 @@ use cosmorama_io::pending::{Elsewhere, Unfinished};
 
 use crate::VideoError;
 
-/// Time between two looks at a program that is waited for.
+/// Time between the first two looks at a program that is waited for. Each further look comes after twice the time of the one before.
+const FIRST_LOOK: Duration = Duration::from_micros(50);
+
+/// Longest time between two looks.
 const LOOK: Duration = Duration::from_millis(5);
 
 /// Longest message that is kept of a program.
@@ -69,23 +72,26 @@ impl Child {
 
     /// Waits until the program has ended.
     pub(crate) fn wait(&mut self) -> io::Result<ExitStatus> {
+        let mut pause = FIRST_LOOK;
         loop {
             if let Some(status) = self.ended()? {
                 return Ok(status);
             }
-            thread::sleep(LOOK);
+            thread::sleep(pause);
+            pause = LOOK.min(2 * pause);
         }
     }
 
     /// Waits until the program has ended, `patience` at most.
     fn wait_for(&mut self, patience: Duration) -> io::Result<Option<ExitStatus>> {
-        let begin = Instant::now();
+        let (begin, mut pause) = (Instant::now(), FIRST_LOOK);
         loop {
             let status = self.ended()?;
             if status.is_some() || begin.elapsed() > patience {
                 return Ok(status);
             }
-            thread::sleep(LOOK);
+            thread::sleep(pause);
+            pause = LOOK.min(2 * pause);
         }
     }
 
@@ -156,21 +162,31 @@ pub(super) fn lines(
     command: Command,
     (program, unfinished): (&'static str, &Unfinished),
     path: &Path,
-    mut each: impl FnMut(&str) -> Result<(), VideoError>,
+    each: impl FnMut(&str) -> Result<(), VideoError>,
 ) -> Result<(), VideoError> {
     let failed = |source| VideoError::Run { program: program.to_owned(), source };
     let mut child = piped(command, program, unfinished)?;
     let stderr = drain(child.stderr(), LONGEST_LINE as usize);
-    let mut stdout = BufReader::new(child.stdout().ok_or_else(|| failed(io::ErrorKind::BrokenPipe.into()))?);
-    let mut line = String::new();
-    while stdout.by_ref().take(LONGEST_LINE).read_line(&mut line).map_err(failed)? > 0 {
-        each(line.trim_end())?;
-        line.clear();
-    }
+    let stdout = child.stdout().ok_or_else(|| failed(io::ErrorKind::BrokenPipe.into()))?;
+    lines_of(BufReader::new(stdout), failed, each)?;
     let status = child.wait().map_err(failed)?;
     if !status.success() {
         let words = String::from_utf8_lossy(&joined(stderr).map_err(failed)?).into_owned();
         return Err(VideoError::Decode { path: path.to_owned(), reason: last_line(&words) });
+    }
+    Ok(())
+}
+
+/// Gives each line of a text to `each`.
+pub(super) fn lines_of(
+    mut text: impl BufRead,
+    failed: impl Fn(io::Error) -> VideoError,
+    mut each: impl FnMut(&str) -> Result<(), VideoError>,
+) -> Result<(), VideoError> {
+    let mut line = String::new();
+    while text.by_ref().take(LONGEST_LINE).read_line(&mut line).map_err(&failed)? > 0 {
+        each(line.trim_end())?;
+        line.clear();
     }
     Ok(())
 }

@@ -26,6 +26,9 @@ pub struct Ffmpeg {
     version: Version,
     encoders: OnceLock<Vec<String>>,
     unfinished: Unfinished,
+    /// Function that answers for ffprobe.
+    #[cfg(fuzzing)]
+    answer: Option<fn(&[&str]) -> Vec<u8>>,
 }
 
 /// Containers that are read. Others are not even tried: play lists would have ffmpeg read further files, and patterns of pictures
@@ -61,7 +64,28 @@ impl Ffmpeg {
     pub fn at(ffmpeg: PathBuf, ffprobe: PathBuf) -> Result<Self, VideoError> {
         let version = version_of("ffmpeg", &ffmpeg)?;
         version_of("ffprobe", &ffprobe)?;
-        Ok(Self { ffmpeg, ffprobe, version, encoders: OnceLock::new(), unfinished: Unfinished::default() })
+        Ok(Self {
+            ffmpeg,
+            ffprobe,
+            version,
+            encoders: OnceLock::new(),
+            unfinished: Unfinished::default(),
+            #[cfg(fuzzing)]
+            answer: None,
+        })
+    }
+
+    /// Asks a function, by ffprobe's arguments, instead of ffprobe: fuzzing starts no process for each input.
+    #[cfg(fuzzing)]
+    pub fn answered_by(answer: fn(&[&str]) -> Vec<u8>) -> Self {
+        Self {
+            ffmpeg: PathBuf::new(),
+            ffprobe: PathBuf::new(),
+            version: Self::OLDEST,
+            encoders: OnceLock::new(),
+            unfinished: Unfinished::default(),
+            answer: Some(answer),
+        }
     }
 
     /// Puts the programs that are started from now on a list, by which an interrupt ends them.
@@ -119,6 +143,12 @@ impl Ffmpeg {
         limit: usize,
         patience: Duration,
     ) -> Result<Said, VideoError> {
+        #[cfg(fuzzing)]
+        if let Some(answer) = self.answer {
+            let mut stdout = answer(arguments);
+            stdout.truncate(limit);
+            return Ok(Said { is_success: true, stdout, stderr: String::new() });
+        }
         let mut command = quiet(&self.ffprobe);
         command.args(["-v", "error"]).args(input_limits()).args(arguments).arg("-i").arg(url(path));
         child::output(command, ("ffprobe", &self.unfinished), path, limit, patience)
@@ -134,6 +164,11 @@ impl Ffmpeg {
         arguments: &[&str],
         each: impl FnMut(&str) -> Result<(), VideoError>,
     ) -> Result<(), VideoError> {
+        #[cfg(fuzzing)]
+        if let Some(answer) = self.answer {
+            let failed = |source| VideoError::Run { program: "ffprobe".to_owned(), source };
+            return child::lines_of(answer(arguments).as_slice(), failed, each);
+        }
         let mut command = quiet(&self.ffprobe);
         command.args(["-v", "error"]).args(input_limits()).args(arguments).arg("-i").arg(url(path));
         child::lines(command, ("ffprobe", &self.unfinished), path, each)

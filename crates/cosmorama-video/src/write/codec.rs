@@ -158,12 +158,15 @@ impl Codec {
         }
         let takes = |encoder: &str| {
             let [least, most] = bounds(encoder);
-            (least.0..=most.0).contains(&width) && (least.1..=most.1).contains(&height)
+            let is_between = (least.0..=most.0).contains(&width) && (least.1..=most.1).contains(&height);
+            is_between && !is_too_thin(encoder, (width, height))
         };
         encoders.iter().copied().find(|encoder| takes(encoder)).ok_or_else(|| {
             let sizes = |encoder: &&str| {
                 let [least, most] = bounds(encoder);
-                format!("{}x{} to {}x{}", least.0, least.1, most.0, most.1)
+                let thin = format!("; with fewer than {THIN} columns or rows, {LONGEST_OF_THIN} of the other at most");
+                let thin = if is_too_thin(encoder, (width, height)) { thin } else { String::new() };
+                format!("{}x{} to {}x{}{thin}", least.0, least.1, most.0, most.1)
             };
             encoders.iter().map(sizes).collect::<Vec<_>>().join(" or ")
         })
@@ -208,6 +211,17 @@ fn bounds(encoder: &str) -> [(usize, usize); 2] {
         "libsvtav1" => [(64, 64), (16384, 8704)],
         _ => [(1, 1), (LONGEST, LONGEST)],
     }
+}
+
+/// Columns or rows below which x265 codes in blocks of 16 pixels.
+const THIN: usize = 32;
+
+/// Greatest length of a side beside one so short: beyond it begins level 5 of H.265, which has no such blocks.
+const LONGEST_OF_THIN: usize = 4216;
+
+/// Returns whether an encoder refuses frames of this size because they are thin, though each side is within its bounds.
+fn is_too_thin(encoder: &str, (width, height): (usize, usize)) -> bool {
+    encoder == "libx265" && width.min(height) < THIN && width.max(height) > LONGEST_OF_THIN
 }
 
 /// Returns the parameters of x265: it alone writes the messages of HDR10 into the stream.
@@ -262,6 +276,12 @@ mod tests {
         ] {
             assert!(found(codec, least).is_ok() && found(codec, most).is_ok(), "{codec:?}");
             assert!(found(codec, (least.0 - 2, most.1)).is_err() && found(codec, (most.0 + 2, least.1)).is_err());
+        }
+        for fits in [(4216, 16), (30, 4216), (65534, 32), (32, 65534)] {
+            assert!(found(Codec::Hevc, fits).is_ok(), "{fits:?}");
+        }
+        for thin in [(4218, 16), (16, 4218), (4218, 30), (30, 65534)] {
+            assert!(found(Codec::Hevc, thin).unwrap_err().contains("4216 of the other"), "{thin:?}");
         }
         assert!(found(Codec::DnxHr, (256, 119)).is_err() && found(Codec::DnxHr, (256, 8193)).is_err());
         assert!(found(Codec::ProRes, (LONGEST + 2, 16)).is_err() && found(Codec::DnxHr, (254, 120)).is_err());

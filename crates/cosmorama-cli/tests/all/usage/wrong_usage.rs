@@ -11,7 +11,7 @@ fn wrong_usage() {
         args.extend(extra);
         bench.fail(2, &args)
     };
-    assert_says(&convert(&["out.bmp", "--to", "omnimax"]), &["out.bmp", "png, jpg"]);
+    assert_says(&convert(&["out.bmp", "--to", "omnimax"]), &["out.bmp", "png, jpg", "for a video mp4"]);
     assert_says(&convert(&["out", "--to", "omnimax"]), &["extension"]);
     assert_says(&convert(&["out.png", "--to", "omnimax", "--size", "0"]), &["--size", "1966x1436"]);
     assert_says(&convert(&["out.png", "--to", "omnimax", "--frames", "9-3"]), &["--frames", "9-3", "3-9"]);

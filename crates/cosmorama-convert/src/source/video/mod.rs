@@ -39,3 +39,27 @@ pub use sink::PictureSink;
 pub fn is_video(path: &Path) -> bool {
     cfg!(feature = "video") && (cosmorama_io::is_video(path) || RawKind::of(path).is_some())
 }
+
+/// Returns what an output's extension may be beside those of pictures, in words; nothing without the feature `video`.
+pub(crate) fn extensions() -> &'static str {
+    if cfg!(feature = "video") {
+        "; for a video mp4, m4v, mov, mkv or webm; for a stream of raw pictures y4m, pam or pfm"
+    } else {
+        ""
+    }
+}
+
+#[cfg(all(test, feature = "video"))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn extensions_that_are_told_are_those_that_are_written() {
+        let is_written = |name: &str| {
+            cosmorama_video::Container::of_path(name.as_ref()).is_some() || RawKind::of(name.as_ref()).is_some()
+        };
+        let told = extensions().split(|sign: char| !sign.is_ascii_alphanumeric());
+        let told = told.filter(|word| is_written(&format!("a.{word}"))).collect::<Vec<_>>();
+        assert_eq!(told, ["mp4", "m4v", "mov", "mkv", "webm", "y4m", "pam", "pfm"]);
+    }
+}

@@ -38,18 +38,19 @@ impl Thresholds {
     fn new(transfer: &Transfer, last: u16, channel: ColourChannel) -> Self {
         let boundary = |code: u16| transfer.decode((f64::from(code) - 0.5) / f64::from(last), channel) as f32;
         let least: Vec<f32> = (1..=last).map(boundary).collect();
-        let greatest = least.last().copied().unwrap_or(0.0);
+        let of = |light: Option<&f32>| light.filter(|light| **light > 0.0).map_or(0, |light| bucket(*light));
+        let (first, last) = (of(least.first()), of(least.last()));
+        // No code begins before the bucket of the least, which is near the end: floats have many buckets close to zero.
+        let mut before = vec![0; first];
         let mut code = 0;
-        let before: Vec<u16> = (0..=bucket(greatest) + 1)
-            .map(|bucket| {
-                let start = f32::from_bits((bucket << SHIFT) as u32);
-                while code < least.len() && least[code] < start {
-                    code += 1;
-                }
-                code as u16
-            })
-            .collect();
-        let is_sparse = before.windows(2).all(|pair| pair[1] - pair[0] <= 1);
+        before.extend((first..=last + 1).map(|bucket| {
+            let start = f32::from_bits((bucket << SHIFT) as u32);
+            while code < least.len() && least[code] < start {
+                code += 1;
+            }
+            code as u16
+        }));
+        let is_sparse = before[first..].windows(2).all(|pair| pair[1] - pair[0] <= 1);
         Self { least, before, is_sparse }
     }
 
