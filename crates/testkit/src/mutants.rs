@@ -1,5 +1,6 @@
 //! Damaged copies of good files, for the tests of readers.
 
+use std::io;
 use std::path::Path;
 
 /// Numbers that break arithmetic: too large, too small, none at all.
@@ -132,15 +133,16 @@ impl Iterator for Mutants<'_> {
 
 /// Makes a TIFF with straight alpha say that its colours are premultiplied by it.
 ///
-/// # Panics
-/// If it has no alpha.
-pub fn say_premultiplied(path: &Path) {
-    let mut bytes = std::fs::read(path).unwrap();
+/// # Errors
+/// When it cannot be read or written, or has no straight alpha.
+pub fn say_premultiplied(path: &Path) -> io::Result<()> {
+    let mut bytes = std::fs::read(path)?;
     // The tag ExtraSamples: one short number, 2 for straight alpha and 1 for premultiplied colours.
     let tag = [0x52, 0x01, 0x03, 0x00, 0x01, 0x00, 0x00, 0x00, 0x02];
-    let at = bytes.windows(tag.len()).position(|window| window == tag).unwrap();
+    let at = bytes.windows(tag.len()).position(|window| window == tag);
+    let at = at.ok_or_else(|| io::Error::other("a TIFF without straight alpha"))?;
     bytes[at + tag.len() - 1] = 1;
-    std::fs::write(path, bytes).unwrap();
+    std::fs::write(path, bytes)
 }
 
 #[cfg(test)]

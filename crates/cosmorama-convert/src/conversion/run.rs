@@ -22,8 +22,8 @@ use crate::job::{Content, ConvertJob, FrameOutputs};
 use crate::settings::LightSettings;
 use crate::source::video::{FrameName, Videos};
 
-/// Threads at most that wait for disks while a sequence is made.
-const MOST_WAITING: usize = 8;
+/// Threads that wait for disks while a sequence is made.
+const WAITING: usize = 8;
 
 impl Checked {
     /// Makes the outputs. Each appears whole or not at all.
@@ -130,8 +130,7 @@ impl Checked {
             [frame] if !job.outputs.go_on => run.still(frame).map(|()| Vec::new()),
             _ => {
                 // Pictures of videos wait for no disk.
-                let waiting = if job.target.format.is_video() { 1 } else { engine.queue_depth().written };
-                let disks = &threads(Some(waiting.min(MOST_WAITING)))?;
+                let disks = &threads(Some(if job.target.format.is_video() { 1 } else { WAITING }))?;
                 let sequence = Sequence { job, engine, stages, pool, disks };
                 stages.among(Stage::Filter, || sequence.run(&mut run))
             }

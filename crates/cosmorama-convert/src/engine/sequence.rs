@@ -29,7 +29,7 @@ pub(crate) struct Sequence<'a> {
     pub(crate) engine: &'a Engine<'a>,
     pub(crate) stages: &'a Stages,
     pub(crate) pool: &'a ThreadPool,
-    /// Threads that wait for disks, so that no core is idle meanwhile.
+    /// Threads that wait for disks, so that no core is idle meanwhile. Each waits for a file, whose picture is gone by then.
     pub(crate) disks: &'a ThreadPool,
 }
 
@@ -56,6 +56,8 @@ type FileImages = Option<Vec<ViewImage>>;
 #[derive(Default)]
 struct Queues<'a> {
     read: VecDeque<(usize, Cow<'a, FrameOutputs>, Results<FileImages>)>,
+    /// The ends of encoding of each frame's files, of the last frames that are written.
+    encoded: VecDeque<Vec<Receiver<()>>>,
     written: VecDeque<(Cow<'a, FrameOutputs>, Results<()>)>,
 }
 
@@ -90,6 +92,7 @@ impl<'a> Sequence<'a> {
     {
         let failure = turn.failure;
         let QueueDepth { read, written, .. } = self.engine.queue_depth();
+        let waiting = self.disks.current_num_threads().div_ceil(self.job.target.files.len().max(1));
         let mut light = self.engine.frame_light();
         let frames = &self.job.outputs.frames;
         let mut between = Between::new(frames, self.job.lighting.as_ref().and_then(|light| light.every));
@@ -125,7 +128,7 @@ impl<'a> Sequence<'a> {
             filled.at(|| named(&frame)).map_err(failed)?;
             images.into_iter().for_each(|image| memory.give(image.image.into_samples()));
             watcher.look(&frame, &light);
-            queues.finish_written(written - 1, watcher)?;
+            queues.make_room((written - 1, waiting), watcher)?;
             if failure.is_before(place) {
                 return Ok(between.reports());
             }
@@ -138,9 +141,10 @@ impl<'a> Sequence<'a> {
             let interpolated = between.up_to(place, &pictures).into_iter();
             let interpolated = interpolated.map(|(place, maps)| (place, Cow::Borrowed(&frames[place - 1]), maps));
             for (place, frame, pictures) in interpolated.chain([(place, frame, pictures)]) {
-                queues.finish_written(written - 1, watcher)?;
-                let being_written = self.have_written(turn.of(place), &frame, (pictures, &light))?;
-                queues.written.push_back((frame, being_written));
+                queues.make_room((written - 1, waiting), watcher)?;
+                let (encoded, results) = self.have_written(turn.of(place), &frame, (pictures, &light))?;
+                queues.encoded.push_back(encoded);
+                queues.written.push_back((frame, results));
             }
         }
     }
@@ -201,13 +205,13 @@ impl<'a> Sequence<'a> {
         files.map(read).collect()
     }
 
-    /// Has the pictures of a frame written.
+    /// Has the pictures of a frame written. Returns the end of encoding, and the result, of each file.
     fn have_written<'s>(
         &self,
         turn: Turn<'_, 's, '_>,
         frame: &FrameOutputs,
         (pictures, light): (Vec<Levels>, &FrameLight),
-    ) -> Result<Results<()>>
+    ) -> Result<(Vec<Receiver<()>>, Results<()>)>
     where
         'a: 's,
     {
@@ -220,11 +224,23 @@ impl<'a> Sequence<'a> {
             let save = move || engine.writer().save_hidden(words, levels, &path, Threads::One);
             turn.write(move || stages.beside(Stage::Encode, save))
         };
-        Ok(frame.files.iter().zip(pictures).map(write).collect())
+        Ok(frame.files.iter().zip(pictures).map(write).unzip())
     }
 }
 
 impl Queues<'_> {
+    /// Waits until at most `pictures` frames are being encoded, and at most `waiting` more wait for their disk.
+    fn make_room(&mut self, (pictures, waiting): (usize, usize), watcher: &mut dyn Watcher) -> Result<()> {
+        while self.encoded.len() > pictures {
+            let Some(files) = self.encoded.pop_front() else { break };
+            for file in files {
+                // Its task is over. What became of it, the file's result says.
+                let _ = file.recv();
+            }
+        }
+        self.finish_written(pictures + waiting, watcher)
+    }
+
     /// Waits until at most `most` frames are being written. After a failed frame, or one after which the watcher stops,
     /// nothing is awaited, because nobody reports on later frames.
     fn finish_written(&mut self, most: usize, watcher: &mut dyn Watcher) -> Result<()> {
@@ -285,15 +301,17 @@ impl<'s, 'd> Turn<'_, 's, 'd> {
         receiver
     }
 
-    /// Starts a task that writes a file. The file appears once it is on its disk.
-    fn write(self, task: impl FnOnce() -> Result<Option<Hidden>> + Send + 's) -> Receiver<Result<()>> {
-        let (answer, receiver) = self.answer();
+    /// Starts a task that writes a file. The file appears once it is on its disk. Returns the end of the task, and the file's result.
+    fn write(self, task: impl FnOnce() -> Result<Option<Hidden>> + Send + 's) -> (Receiver<()>, Receiver<Result<()>>) {
+        let ((answer, receiver), (end, encoded)) = (self.answer(), sync_channel(1));
         let disk = self.disk;
         self.work.spawn(move |_| {
             if answer.is_late() {
                 return;
             }
-            match task() {
+            let written = task();
+            drop(end);
+            match written {
                 Ok(Some(file)) => disk.spawn(move |_| {
                     // It may have waited for its turn.
                     if !answer.is_late() {
@@ -303,7 +321,7 @@ impl<'s, 'd> Turn<'_, 's, 'd> {
                 written => answer.give(written.map(|_| ())),
             }
         });
-        receiver
+        (encoded, receiver)
     }
 
     fn answer<T>(self) -> (Answer<'d, T>, Receiver<Result<T>>) {

@@ -270,7 +270,7 @@ fn integers_brighter_than_their_alpha_are_no_premultiplied_tiff() {
         let samples = (0..=255).flat_map(|alpha| [grey(alpha), grey(alpha), grey(alpha), alpha]).collect();
         let image = EncodedImage::new(16, 16, Channels::Rgba, Depth::Eight, Samples::U8(samples)).unwrap();
         write(&path, &image, &WriteOptions::default()).unwrap();
-        testkit::say_premultiplied(&path);
+        testkit::say_premultiplied(&path).unwrap();
         read(&path, &Limits::default()).map(|file| file.metadata.cut_colours).map_err(|error| error.to_string())
     };
     assert_eq!(read_back(|alpha| alpha), Ok(0));

@@ -198,7 +198,7 @@ fn colours_above_alpha_of_a_tiff_are_counted_where_they_are_cut() {
     let bench = Bench::new();
     let samples = (0..64 * 32).flat_map(|k| if k < 100 { [90, 90, 90, 50] } else { [30, 30, 30, 60] }).collect();
     bench.save("sky.tif", &EncodedImage::new(64, 32, Channels::Rgba, Depth::Eight, Samples::U8(samples)).unwrap());
-    testkit::say_premultiplied(&bench.path("sky.tif"));
+    testkit::say_premultiplied(&bench.path("sky.tif")).unwrap();
     let run = bench.run(&["convert", "sky.tif", "out.png", "--from", "equirect", "--to", "fulldome", "--size", "32"]);
     let told = text(&run.stderr);
     assert!(run.status.success() && told.contains("sky.tif: colour exceeds alpha in 100 pixels, and is cut"), "{told}");
