@@ -42,8 +42,8 @@ pub trait Observer {
     /// Receives the number of a frame that is written; `None` for one without a number. The result says whether to go
     /// on.
     ///
-    /// After `Break(Stop)` no further frame and no further file is started. Files that are being written are finished, and no
-    /// partial file stays behind. [`run`](crate::Checked::run) then returns
+    /// After `Break(Stop)` no further frame and no further file is started. Files that are being written are finished, or taken
+    /// away where they wait for their turn at the disk, and no partial file stays behind. [`run`](crate::Checked::run) then returns
     /// [`ConvertError::Stopped`](crate::ConvertError::Stopped), unless this was the last frame.
     fn frame_done(&mut self, _frame: Option<u64>) -> ControlFlow<Stop> {
         ControlFlow::Continue(())

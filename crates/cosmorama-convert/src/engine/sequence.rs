@@ -2,7 +2,7 @@
 //!
 //! One scheduling thread has files read ahead, filters the current frame, and has pictures written behind. All work runs in
 //! one thread pool, so that codecs and the filter share the cores. Pool threads never block on a queue; only the scheduling
-//! thread does. They do not wait for disks; the threads of a second pool do. Both queues are bounded, and keep the frames' order.
+//! thread does. They do not wait for disks; the threads of a second pool do. All queues are bounded, and keep the frames' order.
 
 use std::borrow::Cow;
 use std::collections::VecDeque;
@@ -10,7 +10,7 @@ use std::iter::Peekable;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::mpsc::{Receiver, SyncSender, TryRecvError, sync_channel};
 
 use cosmorama::raster::Threads;
 use cosmorama_io::pending::Hidden;
@@ -45,19 +45,55 @@ pub(crate) trait Watcher {
     fn done(&mut self, frame: &FrameOutputs) -> Result<()>;
 }
 
-/// Results of tasks in the pool.
-type Results<T> = Vec<Receiver<Result<T>>>;
+/// Results of tasks in the pool, in their order.
+struct Results<T> {
+    here: Vec<Result<T>>,
+    awaited: VecDeque<Receiver<Result<T>>>,
+}
+
+impl<T> Results<T> {
+    fn of(awaited: VecDeque<Receiver<Result<T>>>) -> Self {
+        Self { here: Vec::new(), awaited }
+    }
+
+    /// Returns whether no task is to be waited for.
+    fn are_here(&mut self) -> bool {
+        while let Some(first) = self.awaited.front() {
+            let result = match first.try_recv() {
+                Ok(result) => result,
+                Err(TryRecvError::Empty) => return false,
+                Err(TryRecvError::Disconnected) => Self::given_up(),
+            };
+            self.here.push(result);
+            self.awaited.pop_front();
+        }
+        true
+    }
+
+    /// Waits for the tasks; returns the error of the first that failed.
+    fn all(self) -> Result<Vec<T>> {
+        let wait = |result: Receiver<Result<T>>| result.recv().unwrap_or_else(|_| Self::given_up());
+        self.here.into_iter().chain(self.awaited.into_iter().map(wait)).collect()
+    }
+
+    /// Creates the result of a task that was not begun, since an earlier frame has failed, whose error is reported. Or it has panicked,
+    /// which the scope reports.
+    fn given_up() -> Result<T> {
+        bail!("a thread has given up")
+    }
+}
 
 /// Images of a file; `None` for a damaged frame of a video that is to be left out.
 type FileImages = Option<Vec<ViewImage>>;
 
-/// Frames in flight. Those that are read have their index in the sequence, their outputs and their files' images; those
-/// that are written have their outputs and a result for each file.
+/// Frames in flight.
 #[derive(Default)]
 struct Queues<'a> {
+    /// Index in the sequence, outputs and files' images of those that are read.
     read: VecDeque<(usize, Cow<'a, FrameOutputs>, Results<FileImages>)>,
-    /// The ends of encoding of each frame's files, of the last frames that are written.
+    /// Ends of encoding of the files of those whose pictures may still be held: the last of those that are written.
     encoded: VecDeque<Vec<Receiver<()>>>,
+    /// Outputs, and a result for each file, of those that are written.
     written: VecDeque<(Cow<'a, FrameOutputs>, Results<()>)>,
 }
 
@@ -116,7 +152,7 @@ impl<'a> Sequence<'a> {
                 failure.note(place);
                 error
             };
-            let images = all_of(results).at(|| named(&frame))?;
+            let images = results.all().at(|| named(&frame))?;
             let Some(images) = images.into_iter().collect::<Option<Vec<_>>>() else {
                 self.engine.writer().leave_out(place - 1)?;
                 continue;
@@ -202,7 +238,7 @@ impl<'a> Sequence<'a> {
             };
             turn.start(move || stages.beside(Stage::Decode, images))
         };
-        files.map(read).collect()
+        Results::of(files.map(read).collect())
     }
 
     /// Has the pictures of a frame written. Returns the end of encoding, and the result, of each file.
@@ -224,12 +260,13 @@ impl<'a> Sequence<'a> {
             let save = move || engine.writer().save_hidden(words, levels, &path, Threads::One);
             turn.write(move || stages.beside(Stage::Encode, save))
         };
-        Ok(frame.files.iter().zip(pictures).map(write).unzip())
+        let (encoded, results) = frame.files.iter().zip(pictures).map(write).unzip();
+        Ok((encoded, Results::of(results)))
     }
 }
 
 impl Queues<'_> {
-    /// Waits until at most `pictures` frames are being encoded, and at most `waiting` more wait for their disk.
+    /// Waits until at most `pictures` frames are being encoded, and at most `waiting` more are not on their disk. Tells of all that are.
     fn make_room(&mut self, (pictures, waiting): (usize, usize), watcher: &mut dyn Watcher) -> Result<()> {
         while self.encoded.len() > pictures {
             let Some(files) = self.encoded.pop_front() else { break };
@@ -238,7 +275,11 @@ impl Queues<'_> {
                 let _ = file.recv();
             }
         }
-        self.finish_written(pictures + waiting, watcher)
+        self.finish_written(pictures + waiting, watcher)?;
+        while self.written.front_mut().is_some_and(|(_, results)| results.are_here()) {
+            self.finish_written(self.written.len() - 1, watcher)?;
+        }
+        Ok(())
     }
 
     /// Waits until at most `most` frames are being written. After a failed frame, or one after which the watcher stops,
@@ -246,7 +287,7 @@ impl Queues<'_> {
     fn finish_written(&mut self, most: usize, watcher: &mut dyn Watcher) -> Result<()> {
         while self.written.len() > most {
             let Some((frame, results)) = self.written.pop_front() else { break };
-            let written = all_of(results).at(|| named(&frame));
+            let written = results.all().at(|| named(&frame));
             written.and_then(|_| watcher.done(&frame)).inspect_err(|_| self.written.clear())?;
         }
         Ok(())
@@ -350,15 +391,4 @@ impl<T> Answer<'_, T> {
         // Nobody may be waiting any more, if another task has failed.
         let _ = self.result.send(done);
     }
-}
-
-/// Waits for tasks; returns the error of the first that failed.
-fn all_of<T>(results: Results<T>) -> Result<Vec<T>> {
-    let wait = |result: Receiver<Result<T>>| match result.recv() {
-        Ok(result) => result,
-        // The task was not begun, since an earlier frame has failed, whose error is reported. Or it has panicked, which
-        // the scope reports.
-        Err(_) => bail!("a thread has given up"),
-    };
-    results.into_iter().map(wait).collect()
 }

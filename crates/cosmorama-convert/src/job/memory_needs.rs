@@ -259,7 +259,11 @@ impl MemoryBudget {
         let sizes: Vec<(usize, usize)> = sizes.into_iter().collect();
         let largest = sizes.iter().max_by_key(|size| area(**size));
         let why = largest.map_or_else(String::new, |(width, height)| format!("; the output {width}x{height}"));
-        let pixels = sizes.into_iter().map(area).fold(0, u64::saturating_add);
+        let pixels = match sizes[..] {
+            // It may be made by strips.
+            [(width, height)] if is_too_large((width, height)) => area((width, height.min(STRIP))),
+            _ => sizes.into_iter().map(area).fold(0, u64::saturating_add),
+        };
         self.allow(pixels.saturating_mul(Held::INTEGERS.pixel), "a frame", &why)
     }
 

@@ -7,7 +7,7 @@ use std::time::{Duration, SystemTime};
 use cosmorama_convert::{Code, Conversion, ConvertError, Existing, Observer, Quiet, Report, Result, Stop};
 use cosmorama_io::{Limits, read};
 
-const FRAMES: u64 = 12;
+const FRAMES: u64 = 32;
 
 /// Does something to the files when the second frame is done.
 struct Meanwhile<F>(F);
@@ -54,7 +54,7 @@ fn whole_domes(folder: &Path) -> usize {
     domes.len()
 }
 
-/// A run fails with this code and names the file of frame 12; then the files are mended, and the run goes on.
+/// A run fails with this code and names the file of the last frame; then the files are mended, and the run goes on.
 fn fails_and_goes_on(code: Code, spoil: impl Fn(&Path), words: &str) -> ConvertError {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
@@ -62,7 +62,7 @@ fn fails_and_goes_on(code: Code, spoil: impl Fn(&Path), words: &str) -> ConvertE
     let error = run(domes(folder), || spoil(folder)).unwrap_err();
     let message = error.message().to_string();
     assert_eq!((error.code(), error.is_of_settings()), (code, false), "{message}");
-    assert!(message.contains("sky_12.png") && message.contains(words), "{message}");
+    assert!(message.contains("sky_32.png") && message.contains(words), "{message}");
     let made = whole_domes(folder);
     assert!((2..FRAMES as usize).contains(&made), "{made}");
     skies(folder);
@@ -74,22 +74,22 @@ fn fails_and_goes_on(code: Code, spoil: impl Fn(&Path), words: &str) -> ConvertE
 
 #[test]
 fn a_frame_that_vanishes_is_named() {
-    let vanish = |folder: &Path| std::fs::remove_file(folder.join("sky_12.png")).unwrap();
-    fails_and_goes_on(Code::NotFound, vanish, "frame 12");
+    let vanish = |folder: &Path| std::fs::remove_file(folder.join("sky_32.png")).unwrap();
+    fails_and_goes_on(Code::NotFound, vanish, "frame 32");
 }
 
 #[test]
 fn a_frame_that_is_replaced_by_one_of_another_size_is_named() {
-    fails_and_goes_on(Code::WrongSize, |folder| sky(&folder.join("sky_12.png"), "64"), "64x32");
+    fails_and_goes_on(Code::WrongSize, |folder| sky(&folder.join("sky_32.png"), "64"), "64x32");
 }
 
 #[test]
 fn a_frame_that_is_cut_off_is_named() {
     let cut = |folder: &Path| {
-        let whole = std::fs::read(folder.join("sky_12.png")).unwrap();
-        std::fs::write(folder.join("sky_12.png"), &whole[..whole.len() / 2]).unwrap();
+        let whole = std::fs::read(folder.join("sky_32.png")).unwrap();
+        std::fs::write(folder.join("sky_32.png"), &whole[..whole.len() / 2]).unwrap();
     };
-    fails_and_goes_on(Code::Damaged, cut, "frame 12");
+    fails_and_goes_on(Code::Damaged, cut, "frame 32");
 }
 
 /// Of a still, all frames are made of what was read first: their files must not say that they are made of something else.

@@ -120,15 +120,18 @@ mod tests {
             let shares = || Shares::new(progress, std::iter::once(&view.view));
             let mut making = Making { layer: engine.layer(frame, progress).unwrap(), shares: shares() };
             let form = |image: &EncodedImage| (image.width(), image.channels(), image.depth(), image.alpha_mode());
-            let mut steps = 0.0f32;
+            let (mut steps, mut others, of) = (0.0f32, 0, whole.samples().len());
             for rows in [0..512, 512..1024, 1024..1100] {
                 let strip = (0, &*making.layer.posed, strip_of(view, rows.clone()));
                 let strip = engine.strip(strip, (None, &light), shares()).unwrap();
                 assert_eq!((form(&strip), strip.height()), (form(&whole), rows.len()), "{to}");
                 let part = whole.cropped((0, rows.start), (whole.width(), rows.len()));
                 steps = steps.max(steps_between(strip.samples(), part.samples()));
+                others += other_codes(strip.samples(), part.samples());
             }
             assert!(steps <= 1.0, "{to}: {steps} steps");
+            assert!(others <= of / 1000, "{to}: {others} codes of {of} are others");
+            assert_eq!(matches!(light.texels(), Texels::Fixed(_)), sky == "sky.png", "{to}");
             let file = path(output);
             engine.strips((0, file.as_ref()), (None, &light), &mut making).unwrap().appear().unwrap();
             let file = cosmorama_io::probe(file).unwrap();
@@ -164,6 +167,12 @@ mod tests {
             assert_eq!(checked.is_ok(), is_enough, "{output} in {memory}: {told}");
             assert_eq!(told.contains("needs about"), !is_enough, "{told}");
         }
+    }
+
+    /// Counts codes of 8 bits that differ.
+    fn other_codes(strips: &Samples, whole: &Samples) -> usize {
+        let (Samples::U8(a), Samples::U8(b)) = (strips, whole) else { return 0 };
+        a.iter().zip(b).filter(|(a, b)| a != b).count()
     }
 
     /// Returns the farthest distance of two samples, in codes, in last bits of halves, or in parts of white, of 250,000.

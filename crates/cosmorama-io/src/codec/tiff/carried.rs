@@ -41,7 +41,8 @@ pub(super) fn read<R: Read + Seek>(decoder: &mut Decoder<R>) -> Found {
     let names = UNREAD.iter().filter(|(tag, _)| own.directory().contains(*tag)).map(|(_, name)| *name);
     found.carried.unread.extend(names);
     for (pointer, context) in [(Tag::ExifDirectory, Context::Exif), (Tag::GpsDirectory, Context::Gps)] {
-        let place = decoder.get_tag(pointer).ok().and_then(|value| value.into_ifd_pointer().ok());
+        // As a number: in a BigTIFF it need not be of the type of places.
+        let place = decoder.get_tag(pointer).ok().and_then(|value| value.into_u64().ok()).map(IfdPointer);
         if let Some(directory) = place.and_then(|place| decoder.read_directory(place).ok()) {
             found.fields(&mut decoder.read_directory_tags(&directory), context, &mut fields);
         }

@@ -1,3 +1,4 @@
+use std::borrow::Cow;
 use std::io::{Seek, Write};
 use std::path::Path;
 
@@ -30,13 +31,21 @@ pub(crate) fn write(
     options: &WriteOptions,
 ) -> Result<(), IoError> {
     let (width, height) = picture.size();
+    if width == 0 || height == 0 {
+        return Err(IoError::write(path, "a picture without pixels"));
+    }
     let bytes = (row_bytes(width, &picture) as u64).saturating_mul(height as u64);
-    let result = if bytes > MOST_SAMPLES {
+    let result = if is_big(bytes) {
         encode::<_, TiffKindBig>(output, picture, options)
     } else {
         encode::<_, TiffKindStandard>(output, picture, options)
     };
     result.map_err(|error| IoError::write(path, error))
+}
+
+/// Returns whether so many bytes of samples need a BigTIFF.
+const fn is_big(bytes: u64) -> bool {
+    bytes > MOST_SAMPLES
 }
 
 fn encode<W: Write + Seek, K: TiffKind>(
@@ -112,8 +121,10 @@ fn write_strips<W: Write + Seek, K: TiffKind>(
     (packing, rows): (Packing, usize),
 ) -> Result<Strips<K>, TiffError> {
     let mut strips = Strips { places: Vec::new(), lengths: Vec::new() };
+    // Rows that are made come one after the other, while no thread has other work. Whole pictures may be made beside others.
+    let is_alone = matches!(picture, Picture::Made(_)) || !is_beside_others();
     let mut write = |samples: &[u8], strip: usize| -> Result<(), TiffError> {
-        for packed in packing.packed(samples, strip)? {
+        for packed in packing.packed((samples, strip), is_alone)? {
             strips.places.push(K::convert_offset(tags.write_data(&packed[..])?)?);
             strips.lengths.push(K::convert_offset(packed.len() as u64)?);
         }
@@ -122,7 +133,7 @@ fn write_strips<W: Write + Seek, K: TiffKind>(
     let (width, height) = picture.size();
     let strip = rows * row_bytes(width, picture);
     // As many strips as threads, which compress them side by side.
-    let together = if is_beside_others() { 1 } else { rayon::current_num_threads() } * strip;
+    let together = if is_alone { rayon::current_num_threads() } else { 1 } * strip;
     let mut samples = Vec::new();
     picture.visit::<TiffError>(0..height, |image, rows| {
         for row in rows {
@@ -164,19 +175,15 @@ impl Packing {
         tags.write_tag(Tag::Predictor, predictor.to_u16())
     }
 
-    /// Returns strips of so many bytes as they are written; the last may have fewer.
-    fn packed(self, samples: &[u8], strip: usize) -> Result<Vec<Vec<u8>>, TiffError> {
-        let pack = |strip: &[u8]| -> Result<Vec<u8>, TiffError> {
-            let Some(level) = self.deflate else { return Ok(strip.to_vec()) };
+    /// Returns strips of so many bytes as they are written; the last may have fewer. All threads pack them where they are `alone`.
+    fn packed(self, (samples, strip): (&[u8], usize), alone: bool) -> Result<Vec<Cow<'_, [u8]>>, TiffError> {
+        let pack = |strip| -> Result<Cow<'_, [u8]>, TiffError> {
+            let Some(level) = self.deflate else { return Ok(Cow::Borrowed(strip)) };
             let mut encoder = ZlibEncoder::new(Vec::new(), level);
             encoder.write_all(strip)?;
-            Ok(encoder.finish()?)
+            Ok(Cow::Owned(encoder.finish()?))
         };
-        if is_beside_others() {
-            samples.chunks(strip).map(pack).collect()
-        } else {
-            samples.par_chunks(strip).map(pack).collect()
-        }
+        if alone { samples.par_chunks(strip).map(pack).collect() } else { samples.chunks(strip).map(pack).collect() }
     }
 }
 
@@ -213,11 +220,13 @@ fn row_bytes(width: usize, picture: &Picture<'_, '_>) -> usize {
 #[cfg(test)]
 mod tests {
     use std::io::Cursor;
+    use std::ops::Range;
 
+    use exif::{Field, In, Value};
     use half::f16;
 
     use super::*;
-    use crate::{Limits, Metadata, read_from};
+    use crate::{Carried, Exif, Limits, MadeRows, Metadata, read_from};
 
     /// Columns and rows of a picture of more than one strip in all depths.
     const SIZE: (usize, usize) = (501, 1100);
@@ -233,8 +242,18 @@ mod tests {
         EncodedImage::new(SIZE.0, SIZE.1, channels, depth, samples).unwrap()
     }
 
+    /// Returns words and fields that lie elsewhere than in the entries of a directory, and in directories of their own.
+    fn metadata() -> Metadata {
+        let ascii = |words: &str| Value::Ascii(vec![words.as_bytes().to_vec()]);
+        let field = |tag, value| Field { tag, ifd_num: In::PRIMARY, value };
+        let fields = [field(exif::Tag::LensModel, ascii("a lens")), field(exif::Tag::GPSLatitudeRef, ascii("N"))];
+        let carried = Carried { exif: Exif::of_fields(&fields), ..Carried::default() };
+        Metadata { origin: Some("long enough to lie elsewhere".into()), carried: carried.into(), ..Metadata::default() }
+    }
+
     #[test]
     fn files_of_either_kind_of_places_are_read_as_they_were_written() {
+        let metadata = metadata();
         for (channels, depth) in [
             (Channels::Rgb, Depth::Eight),
             (Channels::GreyAlpha, Depth::Eight),
@@ -244,7 +263,7 @@ mod tests {
         ] {
             for compression in [Compression::None, Compression::Balanced, Compression::High] {
                 let image = picture(channels, depth);
-                let metadata = Metadata { origin: Some("long enough to lie elsewhere".into()), ..Metadata::default() };
+                let metadata = metadata.clone();
                 let options = WriteOptions { compression, metadata, ..WriteOptions::default() };
                 let (mut small, mut big) = (Cursor::new(Vec::new()), Cursor::new(Vec::new()));
                 encode::<_, TiffKindStandard>(&mut small, Picture::Held(&image), &options).unwrap();
@@ -256,8 +275,52 @@ mod tests {
                     assert!(read.image.samples() == image.samples(), "{what}");
                     assert_eq!((read.image.channels(), read.image.depth()), (channels, depth), "{what}");
                     assert_eq!(read.metadata.origin, options.metadata.origin, "{what}");
+                    let told = read.metadata.carried.exif.as_ref().unwrap().told();
+                    for words in ["a lens", "N"] {
+                        assert!(told.iter().any(|(_, value)| value.contains(words)), "{what}: {told:?}");
+                    }
                 }
             }
+        }
+    }
+
+    #[test]
+    fn rows_that_are_made_become_the_file_of_the_whole_picture() {
+        let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+        for (channels, depth) in [(Channels::Rgb, Depth::Eight), (Channels::Rgba, Depth::Float)] {
+            let (image, options) = (picture(channels, depth), WriteOptions::default());
+            let made = || {
+                let mut file = Cursor::new(Vec::new());
+                let make = &mut |rows: Range<usize>| Some(image.cropped((0, rows.start), (SIZE.0, rows.len())));
+                let rows = MadeRows { size: SIZE, channels, depth, alpha_mode: AlphaMode::Straight, at_once: 77, make };
+                write(Path::new("a.tif"), &mut file, Picture::Made(rows), &options).unwrap();
+                file.into_inner()
+            };
+            let whole = || {
+                let mut file = Cursor::new(Vec::new());
+                write(Path::new("a.tif"), &mut file, Picture::Held(&image), &options).unwrap();
+                file.into_inner()
+            };
+            let file = whole();
+            for other in [made(), one.install(made), one.install(whole)] {
+                assert!(other == file, "{channels}, {depth}");
+            }
+        }
+    }
+
+    #[test]
+    fn samples_that_reach_beyond_places_of_32_bits_need_others() {
+        assert!(!is_big(3_700_000_000) && is_big((1 << 32) - 1) && is_big(u64::MAX));
+    }
+
+    #[test]
+    fn a_picture_without_pixels_is_refused() {
+        for size in [(0, 3), (3, 0)] {
+            let image =
+                EncodedImage::new(size.0, size.1, Channels::Rgb, Depth::Eight, Samples::U8(Vec::new())).unwrap();
+            let written =
+                write(Path::new("a.tif"), Cursor::new(Vec::new()), Picture::Held(&image), &WriteOptions::default());
+            assert!(written.unwrap_err().to_string().contains("without pixels"));
         }
     }
 }

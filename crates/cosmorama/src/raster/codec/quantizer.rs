@@ -39,11 +39,11 @@ impl Thresholds {
         let boundary = |code: u16| transfer.decode((f64::from(code) - 0.5) / f64::from(last), channel) as f32;
         let least: Vec<f32> = (1..=last).map(boundary).collect();
         let of = |light: Option<&f32>| light.filter(|light| **light > 0.0).map_or(0, |light| bucket(*light));
-        let (first, last) = (of(least.first()), of(least.last()));
+        let (first, greatest) = (of(least.first()), of(least.last()));
         // No code begins before the bucket of the least, which is near the end: floats have many buckets close to zero.
         let mut before = vec![0; first];
         let mut code = 0;
-        before.extend((first..=last + 1).map(|bucket| {
+        before.extend((first..=greatest + 1).map(|bucket| {
             let start = f32::from_bits((bucket << SHIFT) as u32);
             while code < least.len() && least[code] < start {
                 code += 1;
