@@ -109,6 +109,7 @@ pub(super) fn write_directories<W: Write + Seek, K: TiffKind>(
         }
         let mut directory = encoder.extra_directory()?;
         fields.iter().filter(of_context).try_for_each(|field| write_field(&mut directory, field))?;
+        align(&mut directory)?;
         places.0.push((pointer, directory.finish_with_offsets()?.pointer));
     }
     Ok(places)
@@ -130,10 +131,20 @@ pub(super) fn write_tags<W: Write + Seek, K: TiffKind>(
     let remarks: Vec<String> =
         metadata.remarks.iter().map(|remark| format!("{}: {}", remark.name, remark.text)).collect();
     if !has_description && !remarks.is_empty() {
+        align(tags)?;
         tags.write_tag(Tag::ImageDescription, remarks.join("; ").as_str())?;
     }
     let packet = metadata.packet_to_write(size);
-    packet.map_or(Ok(()), |packet| tags.write_tag(XMP, packet.as_bytes()))
+    packet.map_or(Ok(()), |packet| write_bytes(tags, XMP, Type::BYTE, packet.as_bytes()))
+}
+
+/// Has what is written next begin at an even place, as the TIFF specification (6.0, section 2) asks of directories and values.
+pub(super) fn align<W: Write + Seek, K: TiffKind>(directory: &mut DirectoryEncoder<'_, W, K>) -> Result<(), TiffError> {
+    let place = directory.write_data(&[0u8; 0][..])?;
+    if place % 2 == 1 {
+        directory.write_data(&[0u8][..])?;
+    }
+    Ok(())
 }
 
 fn write_field<W: Write + Seek, K: TiffKind>(
@@ -142,9 +153,20 @@ fn write_field<W: Write + Seek, K: TiffKind>(
 ) -> Result<(), TiffError> {
     let Some((kind, bytes)) = stored(&field.value) else { return Ok(()) };
     let Some(kind) = Type::from_u16(kind) else { return Ok(()) };
-    let entry = directory.write_entry_bytes(kind, &bytes)?;
+    write_bytes(directory, Tag::from_u16_exhaustive(field.tag.1), kind, &bytes)
+}
+
+/// Writes a tag of bytes that are values of this kind.
+pub(super) fn write_bytes<W: Write + Seek, K: TiffKind>(
+    directory: &mut DirectoryEncoder<'_, W, K>,
+    tag: Tag,
+    kind: Type,
+    bytes: &[u8],
+) -> Result<(), TiffError> {
+    align(directory)?;
+    let entry = directory.write_entry_bytes(kind, bytes)?;
     let mut one = Directory::empty();
-    one.extend([(Tag::from_u16_exhaustive(field.tag.1), entry)]);
+    one.extend([(tag, entry)]);
     directory.extend_from(&one);
     Ok(())
 }

@@ -8,7 +8,7 @@ use flate2::write::ZlibEncoder;
 use rayon::prelude::*;
 use tiff::TiffError;
 use tiff::encoder::{DirectoryEncoder, Rational, TiffEncoder, TiffKind, TiffKindBig, TiffKindStandard};
-use tiff::tags::{CompressionMethod, PhotometricInterpretation, Predictor, ResolutionUnit, SampleFormat, Tag};
+use tiff::tags::{CompressionMethod, PhotometricInterpretation, Predictor, ResolutionUnit, SampleFormat, Tag, Type};
 
 use super::carried;
 use super::reader::ICC_PROFILE;
@@ -71,9 +71,10 @@ fn encode<W: Write + Seek, K: TiffKind>(
         tags.write_tag(Tag::ExtraSamples, &[kind][..])?;
     }
     if let Some(profile) = metadata.profile_to_write(channels, depth) {
-        tags.write_tag(ICC_PROFILE, &profile[..])?;
+        carried::write_bytes(&mut tags, ICC_PROFILE, Type::UNDEFINED, &profile)?;
     }
     let strips = write_strips(&mut tags, &mut picture, (packing, rows))?;
+    carried::align(&mut tags)?;
     write_samples(&mut tags, channels, depth)?;
     tags.write_tag(Tag::StripOffsets, K::convert_slice(&strips.places))?;
     tags.write_tag(Tag::StripByteCounts, K::convert_slice(&strips.lengths))?;
@@ -269,6 +270,8 @@ mod tests {
                 encode::<_, TiffKindStandard>(&mut small, Picture::Held(&image), &options).unwrap();
                 encode::<_, TiffKindBig>(&mut big, Picture::Held(&image), &options).unwrap();
                 for (file, version) in [(small.into_inner(), 42), (big.into_inner(), 43)] {
+                    let directory = if version == 42 { file[4] } else { file[8] };
+                    assert_eq!(directory % 2, 0, "a directory at an odd place");
                     let what = format!("{channels}, {depth}, {compression:?}, version {version}");
                     assert_eq!(u16::from_ne_bytes([file[2], file[3]]), version);
                     let read = read_from(Cursor::new(&file), Path::new("a.tif"), &Limits::memory(1 << 28)).unwrap();
