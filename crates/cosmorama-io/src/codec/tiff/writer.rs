@@ -279,8 +279,8 @@ mod tests {
                     assert_eq!((read.image.channels(), read.image.depth()), (channels, depth), "{what}");
                     assert_eq!(read.metadata.origin, options.metadata.origin, "{what}");
                     let told = read.metadata.carried.exif.as_ref().unwrap().told();
-                    for words in ["a lens", "N"] {
-                        assert!(told.iter().any(|(_, value)| value.contains(words)), "{what}: {told:?}");
+                    for field in ["LensModel", "GPSLatitudeRef"] {
+                        assert!(told.iter().any(|(name, _)| name == field), "{what}: {told:?}");
                     }
                 }
             }
