@@ -1,4 +1,5 @@
-use std::io::SeekFrom;
+use std::io::{self, SeekFrom};
+use std::ops::Range;
 use std::path::Path;
 
 use cosmorama::raster::{Channels, Depth, EncodedImage, FramePool, Samples};
@@ -6,7 +7,8 @@ use image::codecs::tga::{TgaDecoder, TgaEncoder};
 use image::{ColorType, ExtendedColorType, ImageDecoder};
 
 use crate::codec::interface::{Codec, Sink, Source, held, whole_image};
-use crate::{Format, Header, ImageFile, IoError, Limits, Metadata, WriteOptions};
+use crate::header::Picture;
+use crate::{Format, Header, ImageFile, IoError, Limits, MadeRows, Metadata, WriteOptions};
 
 const FORMAT: Format = Format::Tga;
 
@@ -39,19 +41,45 @@ impl Codec for Tga {
     }
 
     fn encode(&self, path: &Path, output: Sink<'_>, image: &EncodedImage, _: &WriteOptions) -> Result<(), IoError> {
-        let fail = |reason: &dyn std::fmt::Display| IoError::write(path, reason);
-        let colour = match image.channels() {
-            Channels::Grey => ExtendedColorType::L8,
-            Channels::GreyAlpha => ExtendedColorType::La8,
-            Channels::Rgb => ExtendedColorType::Rgb8,
-            Channels::Rgba => ExtendedColorType::Rgba8,
-        };
-        let Samples::U8(samples) = image.samples() else { return Err(fail(&"TGA has 8 bits")) };
-        let (Ok(width), Ok(height)) = (u16::try_from(image.width()), u16::try_from(image.height())) else {
-            return Err(fail(&"more than 65535 pixels on a side, the most that TGA can count"));
-        };
-        TgaEncoder::new(output).encode(samples, width.into(), height.into(), colour).map_err(|error| fail(&error))
+        write(output, Picture::Held(image)).map_err(|error| IoError::write(path, error))
     }
+
+    fn encode_rows(&self, path: &Path, output: Sink<'_>, rows: MadeRows<'_>, _: &WriteOptions) -> Result<(), IoError> {
+        write(output, Picture::Made(rows)).map_err(|error| IoError::write(path, error))
+    }
+}
+
+/// Bytes of the header.
+const HEADER: usize = 18;
+
+/// Place of the number of rows in it.
+const HEIGHT: Range<usize> = 14..16;
+
+/// Writes a picture row by row: no run of equal pixels may go on in the next row (Truevision TGA file format specification 2.0, "Run-length
+/// encoded images").
+fn write(output: Sink<'_>, mut picture: Picture<'_, '_>) -> io::Result<()> {
+    let colour = match picture.channels() {
+        Channels::Grey => ExtendedColorType::L8,
+        Channels::GreyAlpha => ExtendedColorType::La8,
+        Channels::Rgb => ExtendedColorType::Rgb8,
+        Channels::Rgba => ExtendedColorType::Rgba8,
+    };
+    let (columns, lines) = picture.size();
+    let (Ok(width @ 1..), Ok(height @ 1..)) = (u16::try_from(columns), u16::try_from(lines)) else {
+        return Err(io::Error::other(format!("it has {columns}x{lines} pixels; TGA counts 1 to 65535 on a side")));
+    };
+    let count = columns * picture.channels().count();
+    let (mut bytes, mut is_first) = (Vec::new(), true);
+    picture.visit(0..lines, |image, rows| {
+        let Samples::U8(samples) = image.samples() else { return Err(io::Error::other("TGA has 8 bits")) };
+        samples[rows.start * count..rows.end * count].chunks_exact(count).try_for_each(|row| {
+            bytes.clear();
+            // As a picture of its own.
+            TgaEncoder::new(&mut bytes).encode(row, width.into(), 1, colour).map_err(io::Error::other)?;
+            bytes[HEIGHT].copy_from_slice(&height.to_le_bytes());
+            output.write_all(&bytes[if std::mem::take(&mut is_first) { 0 } else { HEADER }..])
+        })
+    })
 }
 
 fn decoder<'a>(path: &Path, source: Source<'a>) -> Result<TgaDecoder<Source<'a>>, IoError> {

@@ -308,7 +308,7 @@ impl Format {
 
     /// Returns whether a file can be written row by row, so that its picture is never held whole.
     pub const fn takes_rows(self) -> bool {
-        matches!(self, Self::Png | Self::Exr | Self::Tiff | Self::Hdr)
+        matches!(self, Self::Png | Self::Exr | Self::Tiff | Self::Hdr | Self::Jpeg | Self::Tga)
     }
 
     /// Returns whether the format offers several levels of lossless compression.

@@ -17,18 +17,30 @@ pub struct MadeRows<'a> {
     pub at_once: usize,
     /// Makes rows of the picture; `None` ends the writing with an error. Each row is asked for once, from above. Before, a writer may
     /// ask for some of them, to see how well they are compressed.
-    pub make: &'a mut dyn FnMut(Range<usize>) -> Option<EncodedImage>,
+    pub make: &'a mut (dyn FnMut(Range<usize>) -> Option<EncodedImage> + Send),
 }
 
 impl MadeRows<'_> {
-    /// Visits rows, as many at once as are made together.
+    /// Visits rows, as many at once as are made together. The next ones are made meanwhile, if this thread has others beside it.
     pub(crate) fn visit<E: From<io::Error>>(
         &mut self,
         rows: Range<usize>,
         mut each: impl FnMut(&EncodedImage) -> Result<(), E>,
     ) -> Result<(), E> {
-        let (last, at_once) = (rows.end, self.at_once.max(1));
-        rows.step_by(at_once).try_for_each(|top| each(&self.part(top..last.min(top + at_once))?))
+        let (at_once, end) = (self.at_once.max(1), rows.end);
+        let part = |top: usize| top..end.min(top + at_once);
+        let (mut top, mut made) = (rows.start, None);
+        while top < end {
+            let here = made.take().map_or_else(|| self.part(part(top)), |made: io::Result<EncodedImage>| made)?;
+            top += at_once;
+            rayon::in_place_scope(|scope| {
+                if top < end {
+                    scope.spawn(|_| made = Some(self.part(part(top))));
+                }
+                each(&here)
+            })?;
+        }
+        Ok(())
     }
 
     /// Makes rows.
@@ -126,7 +138,7 @@ mod tests {
     use half::f16;
 
     use super::*;
-    use crate::{Compression, WriteOptions, write, write_rows_hidden};
+    use crate::{Compression, EnvMap, Metadata, WriteOptions, write, write_rows_hidden};
 
     /// Columns and rows: the last rows that are made together are fewer.
     const SIZE: (usize, usize) = (70, 1100);
@@ -164,6 +176,9 @@ mod tests {
             ("tif", Channels::Grey, Depth::Float),
             ("hdr", Channels::Rgb, Depth::Float),
             ("tga", Channels::Rgba, Depth::Eight),
+            ("tga", Channels::Grey, Depth::Eight),
+            ("jpg", Channels::Rgb, Depth::Eight),
+            ("jpg", Channels::Grey, Depth::Eight),
         ] {
             for compression in [Compression::None, Compression::Fast, Compression::Balanced, Compression::High] {
                 let image = picture(channels, depth);
@@ -184,10 +199,29 @@ mod tests {
     }
 
     #[test]
+    fn rows_of_a_texture_are_held() {
+        let folder = tempfile::tempdir().unwrap();
+        let (whole, by_rows) = (folder.path().join("whole.dds"), folder.path().join("by_rows.dds"));
+        let cube = picture(Channels::Rgba, Depth::Half).cropped((0, 0), (64, 6 * 64));
+        let options = WriteOptions::with_metadata(Metadata { envmap: Some(EnvMap::GlCube), ..Metadata::default() });
+        write(&whole, &cube, &options).unwrap();
+        let make = &mut |rows: Range<usize>| Some(cube.cropped((0, rows.start), (64, rows.len())));
+        let (size, alpha_mode) = ((64, 6 * 64), cube.alpha_mode());
+        let rows = MadeRows { size, channels: Channels::Rgba, depth: Depth::Half, alpha_mode, at_once: 100, make };
+        write_rows_hidden(&by_rows, rows, &options).unwrap().appear().unwrap();
+        assert!(std::fs::read(whole).unwrap() == std::fs::read(by_rows).unwrap());
+    }
+
+    #[test]
     fn a_picture_whose_rows_end_is_no_file() {
-        for (end, depth) in
-            [("exr", Depth::Half), ("png", Depth::Sixteen), ("tif", Depth::Sixteen), ("hdr", Depth::Float)]
-        {
+        for (end, depth) in [
+            ("exr", Depth::Half),
+            ("png", Depth::Sixteen),
+            ("tif", Depth::Sixteen),
+            ("hdr", Depth::Float),
+            ("jpg", Depth::Eight),
+            ("tga", Depth::Eight),
+        ] {
             let folder = tempfile::tempdir().unwrap();
             let image = picture(Channels::Rgb, depth);
             let make = &mut |rows: Range<usize>| {

@@ -2,17 +2,20 @@ use std::io::{self, Seek, Write};
 use std::path::Path;
 
 use cosmorama::raster::{AlphaMode, Channels, Depth, EncodedImage, FramePool, Sample, Samples};
+use exr::block::chunk::Chunk;
 use exr::block::writer::ChunksWriter;
-use exr::block::{UncompressedBlock, enumerate_ordered_header_block_indices};
+use exr::block::{BlockIndex, UncompressedBlock, enumerate_ordered_header_block_indices};
 use exr::compression::Compression as Packing;
 use exr::image::write::WritableImage;
 use exr::image::write::samples::WritableSamples;
 use exr::image::{AnyChannel, AnyChannels, Blocks, Encoding, FlatSamples, Image, Layer, Levels};
 use exr::math::{RoundingMode, Vec2};
 use exr::meta::attribute::Text;
+use exr::meta::header::Header;
 use exr::meta::mip_map_levels;
 use exr::prelude::SmallVec;
 use half::f16;
+use rayon::prelude::*;
 
 use super::{attributes, colour};
 use crate::codec::interface::{NumberPlanes, is_beside_others};
@@ -35,40 +38,60 @@ pub(super) fn write_rows(
     mut rows: MadeRows<'_>,
     options: &WriteOptions,
 ) -> Result<(), IoError> {
-    let (size, at_once) = (rows.size, rows.at_once.next_multiple_of(BLOCK));
-    let mut planes = |top: usize| {
-        let part = rows.part(top..size.1.min(top + at_once)).map_err(|error| IoError::write(path, error))?;
-        Ok::<Planes, IoError>(AnyChannels::sort(picture(path, &part, &[], options)?).list)
-    };
-    let described = described(path, (size, Blocks::ScanLines), planes(0)?, options)?;
-    let headers = described.write().infer_meta_data();
-    let (mut top, mut part) = (0, described.layer_data.channel_data.list);
+    let size = rows.size;
+    rows.at_once = rows.at_once.next_multiple_of(BLOCK);
+    let planes =
+        |part: &EncodedImage| Ok::<Planes, IoError>(AnyChannels::sort(picture(path, part, &[], options)?).list);
+    let nothing = if rows.depth == Depth::Half { Samples::Half(Vec::new()) } else { Samples::Float(Vec::new()) };
+    let nothing = EncodedImage::new(size.0, 0, rows.channels, rows.depth, nothing);
+    let nothing = nothing.map_err(|error| IoError::write(path, error))?;
+    let headers = described(path, (size, Blocks::ScanLines), planes(&nothing)?, options)?.write().infer_meta_data();
     let written = exr::block::write(output, headers, false, |meta, chunks| {
-        let mut compressor = chunks.sequential_blocks_compressor(&meta);
-        for (place, block) in enumerate_ordered_header_block_indices(&meta.headers) {
-            if block.pixel_position.y() >= top + at_once {
-                top = block.pixel_position.y();
-                part.clear();
-                part = planes(top).map_err(io::Error::other)?;
+        let mut blocks = enumerate_ordered_header_block_indices(&meta.headers).peekable();
+        let mut top = 0;
+        rows.visit(0..size.1, |part| {
+            let (planes, bottom) = (planes(part).map_err(io::Error::other)?, top + part.height());
+            let mut here = std::iter::from_fn(|| blocks.next_if(|(_, block)| block.pixel_position.y() < bottom));
+            let compressed = |(place, block): (usize, BlockIndex)| {
+                Ok((place, filled(&meta.headers, block, (&planes, top))?.compress_to_chunk(&meta.headers)?))
+            };
+            loop {
+                // A few for each thread: compressed ones are held.
+                let some: Vec<_> = here.by_ref().take(2 * rayon::current_num_threads()).collect();
+                if some.is_empty() {
+                    break;
+                }
+                let some: Vec<exr::error::Result<(usize, Chunk)>> = some.into_par_iter().map(compressed).collect();
+                some.into_iter()
+                    .try_for_each(|chunk| chunk.and_then(|(place, chunk)| chunks.write_chunk(place, chunk)))?;
             }
-            let mut lines = Ok(());
-            let block = UncompressedBlock::from_lines(&meta.headers[block.layer].channels, block, |line| {
-                let location = line.location;
-                let from = (location.position.y() - top) * size.0 + location.position.x();
-                let place = from..from + location.sample_count;
-                let written = match &part[location.channel].sample_data {
-                    FlatSamples::F16(samples) => line.write_samples_from_slice(&samples[place]),
-                    FlatSamples::F32(samples) => line.write_samples_from_slice(&samples[place]),
-                    FlatSamples::U32(samples) => line.write_samples_from_slice(&samples[place]),
-                };
-                lines = std::mem::replace(&mut lines, Ok(())).and(written);
-            });
-            lines?;
-            compressor.compress_block(place, block)?;
-        }
-        Ok(())
+            top = bottom;
+            Ok::<(), exr::error::Error>(())
+        })
     });
     written.map_err(|error| IoError::write(path, error))
+}
+
+/// Returns a block with its samples, from planes that begin with the row `top`.
+fn filled(
+    headers: &[Header],
+    block: BlockIndex,
+    (planes, top): (&Planes, usize),
+) -> exr::error::Result<UncompressedBlock> {
+    let width = headers[block.layer].layer_size.width();
+    let mut lines = Ok(());
+    let filled = UncompressedBlock::from_lines(&headers[block.layer].channels, block, |line| {
+        let location = line.location;
+        let from = (location.position.y() - top) * width + location.position.x();
+        let place = from..from + location.sample_count;
+        let written = match &planes[location.channel].sample_data {
+            FlatSamples::F16(samples) => line.write_samples_from_slice(&samples[place]),
+            FlatSamples::F32(samples) => line.write_samples_from_slice(&samples[place]),
+            FlatSamples::U32(samples) => line.write_samples_from_slice(&samples[place]),
+        };
+        lines = std::mem::replace(&mut lines, Ok(())).and(written);
+    });
+    lines.map(|()| filled)
 }
 
 /// Rows of the largest block of scan lines that is compressed by itself.

@@ -1,12 +1,11 @@
 mod marks;
+mod writer;
 
 use std::io::Cursor;
 use std::path::Path;
 use std::sync::Arc;
 
 use cosmorama::raster::{Channels, Depth, EncodedImage, FramePool, Primaries, Samples, Transfer};
-use image::codecs::jpeg::JpegEncoder;
-use image::{ExtendedColorType, ImageEncoder};
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::zune_core::bytestream::{ZByteReaderTrait, ZCursor};
 use zune_jpeg::zune_core::colorspace::ColorSpace;
@@ -14,8 +13,9 @@ use zune_jpeg::zune_core::options::DecoderOptions;
 
 use self::marks::Beside;
 use crate::codec::interface::{Codec, Sink, Source, held, whole_image};
+use crate::header::Picture;
 use crate::metadata::{ADOBE_GAMMA, gpano, iptc, orientation};
-use crate::{Carried, Exif, Format, Header, ImageFile, IoError, Limits, Metadata, WriteOptions};
+use crate::{Carried, Exif, Format, Header, ImageFile, IoError, Limits, MadeRows, Metadata, WriteOptions};
 
 const FORMAT: Format = Format::Jpeg;
 
@@ -67,36 +67,17 @@ impl Codec for Jpeg {
         image: &EncodedImage,
         options: &WriteOptions,
     ) -> Result<(), IoError> {
-        let fail = |reason: &dyn std::fmt::Display| IoError::write(path, reason);
-        let colour = match image.channels() {
-            Channels::Grey => ExtendedColorType::L8,
-            Channels::Rgb => ExtendedColorType::Rgb8,
-            Channels::GreyAlpha | Channels::Rgba => return Err(fail(&"JPEG has no alpha")),
-        };
-        let Samples::U8(samples) = image.samples() else { return Err(fail(&"JPEG has 8 bits")) };
-        let (Ok(width), Ok(height)) = (u16::try_from(image.width()), u16::try_from(image.height())) else {
-            return Err(fail(&"more than 65535 pixels on a side, the most that JPEG can count"));
-        };
-        let mut bytes = Vec::new();
-        let mut encoder = JpegEncoder::new_with_quality(&mut bytes, options.quality.clamp(1, 100));
-        if let Some(profile) = options.metadata.profile_to_write(image.channels(), image.depth()) {
-            encoder.set_icc_profile(profile.into_owned()).map_err(|error| fail(&error))?;
-        }
-        encoder.write_image(samples, width.into(), height.into(), colour).map_err(|error| fail(&error))?;
-        let size = (image.width(), image.height());
-        let metadata = &options.metadata;
-        let exif = metadata.carried.exif.clone().or_else(|| metadata.origin.as_ref().map(|_| Exif::empty()));
-        let exif = exif.and_then(|exif| exif.block_to_write(size, metadata));
-        let exif = exif.map_or_else(Vec::new, |block| segment(b"Exif\0\0", &block));
-        let packet = metadata.packet_to_write(size);
-        let packet =
-            packet.map_or_else(Vec::new, |packet| segment(b"http://ns.adobe.com/xap/1.0/\0", packet.as_bytes()));
-        let (start, rest) = bytes.split_at(end_of_jfif(&bytes));
-        let comment = comment(metadata);
-        [start, &exif, &packet, &comment, rest]
-            .iter()
-            .try_for_each(|part| output.write_all(part))
-            .map_err(|error| fail(&error))
+        writer::write(output, Picture::Held(image), options).map_err(|error| IoError::write(path, error))
+    }
+
+    fn encode_rows(
+        &self,
+        path: &Path,
+        output: Sink<'_>,
+        rows: MadeRows<'_>,
+        options: &WriteOptions,
+    ) -> Result<(), IoError> {
+        writer::write(output, Picture::Made(rows), options).map_err(|error| IoError::write(path, error))
     }
 }
 
@@ -118,31 +99,6 @@ fn metadata<T: ZByteReaderTrait>(decoder: &JpegDecoder<T>, size: (usize, usize))
         orientation,
         carried: Arc::new(carried),
         ..Metadata::by(software)
-    }
-}
-
-/// Returns a segment of an application, which the encoder cannot write itself. One that is too long, which
-/// [`crate::Carried::kept`] leaves out, is empty.
-fn segment(name: &[u8], content: &[u8]) -> Vec<u8> {
-    let Ok(length) = u16::try_from(2 + name.len() + content.len()) else { return Vec::new() };
-    [&[0xff, 0xe1], &length.to_be_bytes()[..], name, content].concat()
-}
-
-/// Returns the comment that says what the program states about the pixels; empty if that is nothing.
-fn comment(metadata: &Metadata) -> Vec<u8> {
-    let remarks = metadata.remarks.iter().map(|remark| format!("{}: {}", remark.name, remark.text));
-    let text = remarks.collect::<Vec<_>>().join("; ");
-    match u16::try_from(2 + text.len()) {
-        Ok(length) if length > 2 => [&[0xff, 0xfe], &length.to_be_bytes()[..], text.as_bytes()].concat(),
-        _ => Vec::new(),
-    }
-}
-
-/// Returns the end of the start mark and of the JFIF segment, which must come first.
-fn end_of_jfif(bytes: &[u8]) -> usize {
-    match bytes {
-        [_, _, 0xff, 0xe0, high, low, ..] => bytes.len().min(4 + usize::from(u16::from_be_bytes([*high, *low]))),
-        _ => bytes.len().min(2),
     }
 }
 
