@@ -45,10 +45,11 @@ fn anew() -> Diagnostic {
 
 impl Geometry {
     /// Compiles the geometry of a job's views in one pose, and returns it with its warnings. It is kept by plans where that
-    /// pays: if the pose `is_repeated`, or serves further channels.
+    /// pays: if the pose `is_repeated`, or serves further channels. So many bytes are `taken` by other geometry.
     pub(crate) fn compile(
         job: &ConvertJob,
         (views, is_repeated): (&[TargetView], bool),
+        taken: u64,
         progress: &dyn Progress,
     ) -> Result<(Self, Vec<Diagnostic>), Stopped> {
         let mut warnings = Vec::new();
@@ -61,7 +62,7 @@ impl Geometry {
         // Balanced pictures need their plan, even if there is only one.
         let is_kept = is_repeated || has_passes(job) || !groups.is_empty();
         let plans = if is_kept {
-            let taken = balance::bytes_of((job, views), &groups);
+            let taken = taken.saturating_add(balance::bytes_of((job, views), &groups));
             plans((job, views, is_repeated), (arithmetic, taken), progress, &mut warnings)?
         } else {
             views.iter().map(|_| None).collect()

@@ -1,4 +1,4 @@
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use cosmorama::motion::Pose;
 use cosmorama::render::{Progress, ScreenMask, Stopped};
@@ -15,7 +15,7 @@ pub(crate) struct Posed {
     /// Views in that pose.
     pub(crate) views: Vec<TargetView>,
     /// Geometry of the views.
-    pub(crate) geometry: Geometry,
+    pub(crate) geometry: Arc<Geometry>,
     masks: Vec<OnceLock<ScreenMask>>,
 }
 
@@ -27,9 +27,14 @@ impl Posed {
         (pose, views, is_repeated): (Option<Pose>, Vec<TargetView>, bool),
         progress: &dyn Progress,
     ) -> Result<(Self, Vec<Diagnostic>), Stopped> {
-        let (geometry, told) = Geometry::compile(job, (&views, is_repeated), progress)?;
+        let (geometry, told) = Geometry::compile(job, (&views, is_repeated), 0, progress)?;
+        Ok((Self::of((pose, views), Arc::new(geometry)), told))
+    }
+
+    /// Combines the views of a pose with their geometry.
+    pub(crate) fn of((pose, views): (Option<Pose>, Vec<TargetView>), geometry: Arc<Geometry>) -> Self {
         let masks = views.iter().map(|_| OnceLock::new()).collect();
-        Ok((Self { pose, views, geometry, masks }, told))
+        Self { pose, views, geometry, masks }
     }
 
     /// Returns the mask of a view's pixels that no view of the world covers.

@@ -128,7 +128,7 @@ impl Writer {
         words: FrameWords,
         path: &Path,
         (size, at_once): ((usize, usize), usize),
-        make: &mut dyn FnMut(Range<usize>) -> Option<EncodedImage>,
+        make: &mut (dyn FnMut(Range<usize>) -> Option<EncodedImage> + Send),
     ) -> Result<Hidden> {
         let (channels, depth, alpha_mode) = (self.encoder.channels(), self.encoder.depth(), self.encoder.alpha_mode());
         let rows = MadeRows { size, channels, depth, alpha_mode, at_once, make };

@@ -16,7 +16,7 @@ use cosmorama_spec::Missing;
 use super::Content;
 use super::backdrop::{FoundBackdrop, Front};
 use super::gaps::Shot;
-use super::memory_needs::{FrameNeeds, Held, gathered_bytes, is_one_large, program_bytes, with_reserve};
+use super::memory_needs::{FrameNeeds, Held, gathered_bytes, is_large, program_bytes, with_reserve};
 use super::options::{check_file_options, filter};
 use crate::colour::{LayerPlan, Light, check_choice, check_labels, check_light};
 use crate::detect::unless_damaged;
@@ -379,17 +379,20 @@ impl ConvertJob {
         }
         let views = self.target.views.iter().map(|target| (target.view.width(), target.view.height()));
         let needs = needs.with_bands(self.input.texels() as u64, views);
-        if self.is_by_strips() { needs.by_strips(self.target.format, self.target.files[0].sheet.size.1) } else { needs }
+        if !self.is_by_strips() {
+            return needs;
+        }
+        let sizes: Vec<(usize, usize)> = self.target.files.iter().map(|file| file.sheet.size).collect();
+        needs.by_strips(self.target.format, &sizes)
     }
 
-    /// Returns whether the picture is too large to be held, and of nothing but its own light: it is encoded strip by strip.
+    /// Returns whether the pictures of a frame are too large to be held, and of nothing but their own light: they are encoded strip by
+    /// strip.
     pub(crate) fn is_by_strips(&self) -> bool {
         // Integers are samples, which are held for a format that is written as a whole.
         let is_of_use = self.target.format.takes_rows() || self.fixed_codec().is_none();
         is_of_use
-            && is_one_large(&self.target)
-            && self.input.frames.len() == 1
-            && !self.outputs.are_many()
+            && is_large(&self.target)
             && !self.target.format.is_video()
             && self.filter.kind == FilterKind::Ewa
             && !self.is_balance_asked_for()

@@ -166,14 +166,22 @@ impl FrameNeeds {
         Self { samples: Samples { is_kept: true, ..self.samples }, ..self }
     }
 
-    /// Returns the needs of a picture that is made strip by strip: only a strip of it is there at once, and of its samples, too, if the
-    /// format is written row by row.
-    pub(crate) fn by_strips(self, format: Format, height: usize) -> Self {
-        let strip = |picture: u64| picture.div_ceil(height.max(1) as u64).saturating_mul(STRIP.min(height) as u64);
+    /// Returns the needs of pictures of these sizes that are made one after the other, strip by strip: only a strip of one is there at once,
+    /// with the samples of the one before, which are written; all samples of a picture where the format is not written row by row.
+    pub(crate) fn by_strips(self, format: Format, sizes: &[(usize, usize)]) -> Self {
+        let all = pixels_in(sizes.iter().copied()).max(1);
+        let strip = |pictures: u64| (pictures / all).saturating_mul(strip_of(sizes.iter().copied()));
         // Integers are samples themselves.
         let samples = if self.encoded == 0 { self.pictures } else { self.encoded };
-        let samples = if format.takes_rows() { strip(samples) } else { samples };
-        Self { pictures: samples, piece: strip(self.pictures), encoded: 0, ..self }
+        let largest = sizes.iter().copied().map(area).max().unwrap_or(0);
+        let written = if format.takes_rows() { strip(samples) } else { (samples / all).saturating_mul(largest) };
+        let light = strip(self.pictures);
+        Self {
+            pictures: written.saturating_add(strip(samples)),
+            piece: light + light.min(self.piece),
+            encoded: 0,
+            ..self
+        }
     }
 
     /// Returns the bytes that a frame takes at once, at most, without those of the program. Samples of a single frame are freed as
@@ -245,10 +253,8 @@ impl MemoryBudget {
 
     /// Checks that the outputs of a frame fit, before anything is made.
     pub(crate) fn check_outputs(self, target: &Target, light: &Light) -> Result<()> {
-        // Of a picture by strips, only a strip may be held.
-        let most = if is_one_large(target) && target.format.takes_rows() { STRIP } else { usize::MAX };
-        let sheets = target.files.iter().flat_map(|file| file.levels());
-        let pixels = sheets.map(|sheet| area((sheet.size.0, sheet.size.1.min(most)))).fold(0, u64::saturating_add);
+        let sizes = target.files.iter().flat_map(|file| file.levels()).map(|sheet| sheet.size);
+        let pixels = if is_large(target) && target.format.takes_rows() { strip_of(sizes) } else { pixels_in(sizes) };
         // Each exists as a picture, in one form or the other, or as samples.
         let least = light.file_bytes((1, 1)).min(Held::INTEGERS.pixel);
         self.allow(pixels.saturating_mul(least), "a frame", &describe(target, "; "))
@@ -259,11 +265,9 @@ impl MemoryBudget {
         let sizes: Vec<(usize, usize)> = sizes.into_iter().collect();
         let largest = sizes.iter().max_by_key(|size| area(**size));
         let why = largest.map_or_else(String::new, |(width, height)| format!("; the output {width}x{height}"));
-        let pixels = match sizes[..] {
-            // It may be made by strips.
-            [(width, height)] if is_too_large((width, height)) => area((width, height.min(STRIP))),
-            _ => sizes.into_iter().map(area).fold(0, u64::saturating_add),
-        };
+        let sizes = sizes.into_iter();
+        // They may be made by strips.
+        let pixels = if are_too_large(sizes.clone()) { strip_of(sizes) } else { pixels_in(sizes) };
         self.allow(pixels.saturating_mul(Held::INTEGERS.pixel), "a frame", &why)
     }
 
@@ -371,18 +375,27 @@ const RESERVE: u64 = 16;
 /// Memory of a view beside its texels: its names, its header and its geometry, in several lists.
 const VIEW: u64 = 5 << 10;
 
-/// Pixels of a picture that are held at once, at most, where it can be made by strips.
+/// Pixels of a frame's pictures that are held at once, at most, where they can be made by strips.
 const MOST_HELD: u64 = 1 << 27;
 
-/// Returns whether a target is one picture of one view, too large to be held.
-pub(crate) fn is_one_large(target: &Target) -> bool {
-    let [file] = &target.files[..] else { return false };
-    is_too_large(file.sheet.size) && file.sheet.pieces.len() == 1 && file.mips.is_empty()
+/// Returns whether the pictures of a target are too large to be held. With mip levels they are textures, which are held whatever their size.
+pub(crate) fn is_large(target: &Target) -> bool {
+    let is_alone = target.files.iter().all(|file| file.mips.is_empty());
+    is_alone && are_too_large(target.files.iter().map(|file| file.sheet.size))
 }
 
-/// Returns whether a picture of this size is too large to be held, where it can be made by strips.
-pub(crate) fn is_too_large(size: (usize, usize)) -> bool {
-    area(size) > MOST_HELD
+/// Returns whether pictures of these sizes are too large to be held together, where they can be made by strips.
+pub(crate) fn are_too_large(sizes: impl Iterator<Item = (usize, usize)>) -> bool {
+    pixels_in(sizes) > MOST_HELD
+}
+
+/// Returns the pixels of the largest strip of pictures of these sizes.
+fn strip_of(sizes: impl Iterator<Item = (usize, usize)>) -> u64 {
+    sizes.map(|(width, height)| area((width, height.min(STRIP)))).max().unwrap_or(0)
+}
+
+fn pixels_in(sizes: impl Iterator<Item = (usize, usize)>) -> u64 {
+    sizes.map(area).fold(0, u64::saturating_add)
 }
 
 /// Rows of a strip.

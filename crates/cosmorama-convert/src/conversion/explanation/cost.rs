@@ -9,7 +9,7 @@ use cosmorama_io::Format;
 
 use super::Explanation;
 use crate::input::{Input, InputView};
-use crate::job::{FrameNeeds, Held, compressed, is_too_large, program_bytes};
+use crate::job::{FrameNeeds, Held, are_too_large, compressed, program_bytes};
 use crate::source::memory_budget::{area, read_bytes};
 use crate::target::Picture;
 
@@ -99,17 +99,14 @@ impl Explanation {
     fn cost(&self, files: CostedFiles, input: &Input, worlds: &[World], reports: &[explain::Report]) -> SequenceCost {
         let held = files.held(input);
         let size = |picture: &Picture| (picture.view.width(), picture.view.height());
-        let pixels = self.pictures().iter().map(|picture| area(size(picture))).fold(0, u64::saturating_add);
+        let sizes = self.file_sizes();
+        let pixels = sizes.iter().copied().map(area).fold(0, u64::saturating_add);
         let is_part = |picture: &&Picture| picture.place.is_some_and(|place| !place.is_whole(size(picture)));
         let largest = self.pictures().iter().filter(is_part).map(|picture| area(size(picture))).max().unwrap_or(0);
         let prepared = reports.iter().map(|report| report.memory.levels as u64).max().unwrap_or(0);
         let needs = FrameNeeds::of_pictures(input, worlds, (pixels, largest), held).with_prepared(prepared);
         let needs = needs.with_bands(input.texels() as u64, self.pictures().iter().map(size));
-        // A single large picture is made by strips.
-        let single = match self.pictures() {
-            [picture] if is_too_large(size(picture)) => needs.by_strips(files.format(), size(picture).1),
-            _ => needs,
-        };
+        let needs = if are_too_large(sizes.iter().copied()) { needs.by_strips(files.format(), &sizes) } else { needs };
         let plan = |report: &explain::Report| {
             if held == Held::INTEGERS { report.memory.fixed_plan } else { report.memory.plan }
         };
@@ -121,10 +118,18 @@ impl Explanation {
         SequenceCost {
             files,
             cpu_seconds: seconds(files, input, raw, reports),
-            picture_bytes: program.saturating_add(single.peak()),
+            picture_bytes: program.saturating_add(needs.peak()),
             job_bytes: [program, needs.shared, plans, depth.bytes].into_iter().fold(0, u64::saturating_add),
             frame_bytes: compressed(raw, files.format(), None),
         }
+    }
+
+    /// Returns the sizes of the files of a frame. Pictures that have places lie in one.
+    fn file_sizes(&self) -> Vec<(usize, usize)> {
+        let size = |picture: &Picture| (picture.view.width(), picture.view.height());
+        let sheet =
+            self.pictures().iter().find_map(|picture| picture.place.filter(|place| !place.is_whole(size(picture))));
+        sheet.map_or_else(|| self.pictures().iter().map(size).collect(), |place| vec![place.of])
     }
 
     /// Returns the input with those views that a picture needs.

@@ -31,7 +31,7 @@ impl Engine<'_> {
         if !job.outputs.are_many() {
             return job.estimated_bytes(threads);
         }
-        let geometry = lock(&self.posed).as_ref().map_or(0, |posed| posed.geometry.bytes());
+        let geometry = lock(&self.posed).as_ref().map_or(0, |posed| posed.geometry.bytes()) + self.strips.bytes();
         let own = [job.frame_needs().shared, self.queue_depth().bytes, geometry];
         let behind = job.layers().skip(1).map(|job| job.frame_needs().peak());
         own.into_iter().chain(behind).fold(program_bytes(threads), u64::saturating_add)
@@ -43,7 +43,9 @@ impl Engine<'_> {
             return "light is gathered for each map, without geometry to keep".to_owned();
         }
         let posed = lock(&self.posed);
-        match posed.as_ref().map(|posed| (posed.geometry.kept(), posed.geometry.bytes())) {
+        let (plans, bytes) = (self.strips.kept(), self.strips.bytes());
+        match posed.as_ref().map(|posed| (posed.geometry.kept() + plans, posed.geometry.bytes() + bytes)) {
+            None if job.is_by_strips() => "computed for each frame, strip by strip: the camera moves".to_owned(),
             None => "computed for each pose of the moving camera, and kept while it stands still".to_owned(),
             Some((0, _)) if job.outputs.are_many() => {
                 "computed anew for each frame: the filter has no plan, or memory is short".to_owned()

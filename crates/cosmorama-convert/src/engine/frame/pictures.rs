@@ -13,6 +13,7 @@ use crate::detect::FacePixels;
 use crate::detect::pixels::light_of;
 use crate::diagnostic::{BACKGROUND, Code, ConvertError, Diagnostic, MISSING, Result, bail};
 use crate::engine::frame::behind::Behind;
+use crate::engine::frame::strips::KeptStrips;
 use crate::engine::geometry::arithmetic;
 use crate::engine::unfiltered::formula;
 use crate::engine::{
@@ -37,6 +38,8 @@ pub(crate) struct Engine<'a> {
     pub(super) behind: Option<Box<Behind<'a>>>,
     /// Pose of the last frame: of all frames where nothing moves.
     pub(super) posed: Mutex<Option<Arc<Posed>>>,
+    /// Geometry of the strips of large pictures.
+    pub(super) strips: KeptStrips,
     /// Diagnostics about the geometry that are not told yet.
     told: Mutex<Vec<Diagnostic>>,
     writer: Writer,
@@ -69,12 +72,20 @@ impl<'a> Engine<'a> {
     /// Prepares the geometry, on the threads that will render the frames.
     pub(crate) fn new(job: &'a ConvertJob, options: WriterOptions, progress: &dyn Progress) -> Result<Self, Stopped> {
         let behind = Behind::new(job, progress)?;
-        let (posed, told, geometry) = if job.movement.is_some() {
-            (None, Vec::new(), bytes_while_moving(job))
+        let (is_moving, is_by_strips) = (job.movement.is_some(), job.is_by_strips());
+        let (posed, mut told) = if is_moving {
+            (None, Vec::new())
         } else {
-            let (posed, told) = Posed::new(job, (None, job.target.views.clone(), job.outputs.are_many()), progress)?;
-            let bytes = posed.geometry.bytes();
-            (Some(Arc::new(posed)), told, bytes)
+            let is_repeated = job.outputs.are_many() && !is_by_strips;
+            let (posed, told) = Posed::new(job, (None, job.target.views.clone(), is_repeated), progress)?;
+            (Some(Arc::new(posed)), told)
+        };
+        let (strips, further) = KeptStrips::new(job, progress)?;
+        told.extend(further);
+        let geometry = match &posed {
+            None if is_by_strips => 0,
+            None => bytes_while_moving(job),
+            Some(posed) => posed.geometry.bytes() + strips.bytes(),
         };
         let threads = rayon::current_num_threads();
         let mut queue_depth = job.memory.queue_depth(job.frame_needs(), job.target.files.len(), geometry, threads);
@@ -92,7 +103,20 @@ impl<'a> Engine<'a> {
             videos.expect_rows(video, rows.clone());
         }
         let rows = rows.map_or(0..usize::MAX, |(_, rows)| rows);
-        Ok(Self { job, rows, codec, behind, posed, told, writer, queue_depth, pool, edges, lit: Mutex::default() })
+        Ok(Self {
+            job,
+            rows,
+            codec,
+            behind,
+            posed,
+            strips,
+            told,
+            writer,
+            queue_depth,
+            pool,
+            edges,
+            lit: Mutex::default(),
+        })
     }
 
     /// Adds diagnostics about geometry, each of which is told once.
@@ -155,7 +179,7 @@ impl<'a> Engine<'a> {
         }
         // Never both at once.
         *last = None;
-        let is_repeated = next.is_some_and(|next| self.job.pose(next) == pose);
+        let is_repeated = !self.job.is_by_strips() && next.is_some_and(|next| self.job.pose(next) == pose);
         let beginning = Share { whole: progress, from: 0.0, to: 0.0 };
         let views = self.job.views_in(pose.as_ref())?;
         let made = Posed::new(self.job, (pose, views, is_repeated), &beginning).map_err(|Stopped| self.stopped())?;
@@ -340,33 +364,43 @@ impl<'a> Engine<'a> {
         (frame, light): (Option<u64>, &FrameLight),
         making: &mut Making,
     ) -> Result<Levels> {
-        let sheets = self.job.target.files[file].levels();
-        if let (Texels::Fixed(worlds), Some(codec)) = (light.texels(), &self.codec) {
-            let mut view = |index| self.codes(index, (worlds, codec), making);
-            let picture = |sheet: &Sheet| sheet.assemble_in(&self.pool, codec.background(), &mut view);
-            return Ok(Levels::Codes(sheets.map(picture).collect::<Result<_>>()?));
-        }
-        if let (Texels::Float(worlds), Some((encoder, background))) =
-            (light.texels(), self.encoder_at_once(file, light, making))
-        {
-            let mut view = |index| self.samples(index, (worlds, encoder), making);
-            let picture = |sheet: &Sheet| sheet.assemble_in(&self.pool, background, &mut view);
-            return Ok(Levels::Codes(sheets.map(picture).collect::<Result<_>>()?));
-        }
-        let mut view = |index| self.render_view(index, (frame, light), making);
-        let picture = |sheet: &Sheet| sheet.assemble_in(&self.pool, self.job.light.background, &mut view);
-        Ok(Levels::Light(sheets.map(picture).collect::<Result<_>>()?))
+        let sheets: Vec<&Sheet> = self.job.target.files[file].levels().collect();
+        self.render_sheets(&sheets, (frame, light), making)
     }
 
-    /// Returns the encoder of a file whose samples are made at once, without pictures of light, and those of the background: nothing else
+    /// Renders sheets, whose pieces are views of the geometry in `making`.
+    pub(super) fn render_sheets(
+        &self,
+        sheets: &[&Sheet],
+        (frame, light): (Option<u64>, &FrameLight),
+        making: &mut Making,
+    ) -> Result<Levels> {
+        if let (Texels::Fixed(worlds), Some(codec)) = (light.texels(), &self.codec) {
+            let mut view = |index| self.codes(index, (worlds, codec), making);
+            let picture = |sheet: &&Sheet| sheet.assemble_in(&self.pool, codec.background(), &mut view);
+            return Ok(Levels::Codes(sheets.iter().map(picture).collect::<Result<_>>()?));
+        }
+        if let (Texels::Float(worlds), Some((encoder, background))) =
+            (light.texels(), self.encoder_at_once(sheets, light, making))
+        {
+            let mut view = |index| self.samples(index, (worlds, encoder), making);
+            let picture = |sheet: &&Sheet| sheet.assemble_in(&self.pool, background, &mut view);
+            return Ok(Levels::Codes(sheets.iter().map(picture).collect::<Result<_>>()?));
+        }
+        let mut view = |index| self.render_view(index, (frame, light), making);
+        let picture = |sheet: &&Sheet| sheet.assemble_in(&self.pool, self.job.light.background, &mut view);
+        Ok(Levels::Light(sheets.iter().map(picture).collect::<Result<_>>()?))
+    }
+
+    /// Returns the encoder of sheets whose samples are made at once, without pictures of light, and those of the background: nothing else
     /// is done with its light, and each of its views has a plan.
-    fn encoder_at_once(&self, file: usize, light: &FrameLight, making: &Making) -> Option<(&Encoder, [u8; 3])> {
+    fn encoder_at_once(&self, sheets: &[&Sheet], light: &FrameLight, making: &Making) -> Option<(&Encoder, [u8; 3])> {
         let (job, geometry) = (self.job, &making.layer.posed.geometry);
         let is_alone = self.is_solid() && self.is_complete(light) && job.layers.is_plain() && job.formula().is_none();
         let is_plain = is_alone && !job.is_blurred && !job.is_balance_asked_for();
         let encoder = self.writer.encoder_alone().filter(|_| is_plain)?;
         let background = encoder.rgb(job.light.background)?;
-        let mut pieces = job.target.files[file].levels().flat_map(|sheet| &sheet.pieces);
+        let mut pieces = sheets.iter().flat_map(|sheet| &sheet.pieces);
         pieces.all(|(index, _)| geometry.encodes(*index, encoder)).then_some((encoder, background))
     }
 

@@ -10,7 +10,7 @@ use crate::diagnostic::{
     Code, ConvertError, Diagnostic, FRAMES, OVERWRITE, RESUME, Result, bail, failure, usage, usage_as,
 };
 use crate::input::Input;
-use crate::job::{ConvertJob, Remade, Resumed, is_one_large};
+use crate::job::{ConvertJob, Remade, Resumed, is_large};
 use crate::settings::{Conversion, Existing, GeometrySettings};
 use crate::source::ViewFiles;
 use crate::source::memory_budget::human;
@@ -209,7 +209,7 @@ impl Space {
         let folder = folder.filter(|_| !job.outputs.is_passed_on);
         let free = folder.and_then(free_space).map(|free| free.saturating_add(replaced));
         let all = frame.saturating_mul(frames.len() as u64);
-        let is_long = frames.len() > 1 || is_one_large(&job.target);
+        let is_long = frames.len() > 1 || is_large(&job.target);
         Self { frame, all, free, is_resumable: job.is_resumable(), is_long }
     }
 
