@@ -16,7 +16,7 @@ use cosmorama_spec::Missing;
 use super::Content;
 use super::backdrop::{FoundBackdrop, Front};
 use super::gaps::Shot;
-use super::memory_needs::{FrameNeeds, Held, gathered_bytes, is_large, program_bytes, with_reserve};
+use super::memory_needs::{FrameNeeds, Held, STRIP, gathered_bytes, is_large, program_bytes, with_reserve};
 use super::options::{check_file_options, filter};
 use crate::colour::{LayerPlan, Light, check_choice, check_labels, check_light};
 use crate::detect::unless_damaged;
@@ -374,11 +374,9 @@ impl ConvertJob {
             .beside_streams(self.input.ahead_bytes(&*self.files));
         let is_one = self.input.frames.len() <= 1 && !self.outputs.are_many();
         let needs = if is_one { needs } else { needs.of_many() };
-        if self.filter.kind != FilterKind::Ewa || self.lighting.is_some() {
-            return needs;
-        }
+        let has_bands = self.content.has_files() && self.filter.kind == FilterKind::Ewa && self.lighting.is_none();
         let views = self.target.views.iter().map(|target| (target.view.width(), target.view.height()));
-        let needs = needs.with_bands(self.input.texels() as u64, views);
+        let needs = if has_bands { needs.with_bands(self.input.texels() as u64, views) } else { needs };
         if !self.is_by_strips() {
             return needs;
         }
@@ -386,21 +384,22 @@ impl ConvertJob {
         needs.by_strips(self.target.format, &sizes)
     }
 
-    /// Returns whether the pictures of a frame are too large to be held, and of nothing but their own light: they are encoded strip by
-    /// strip.
+    /// Returns whether the pictures of a frame are too large to be held: they are encoded strip by strip. Not where all of a picture must be
+    /// there: to balance its light, by filters of several passes, and with further channels.
     pub(crate) fn is_by_strips(&self) -> bool {
         // Integers are samples, which are held for a format that is written as a whole.
         let is_of_use = self.target.format.takes_rows() || self.fixed_codec().is_none();
         is_of_use
             && is_large(&self.target)
             && !self.target.format.is_video()
-            && self.filter.kind == FilterKind::Ewa
-            && !self.is_balance_asked_for()
-            && !self.is_blurred
             && self.lighting.is_none()
-            && self.content == Content::World
-            && self.backdrop.is_none()
             && self.layers.is_plain()
+            && match self.content {
+                Content::World => self.filter.kind == FilterKind::Ewa && !self.is_balance_asked_for(),
+                Content::Formula(_) => true,
+                Content::StMap | Content::Directions(_) => false,
+            }
+            && self.backdrop.as_ref().is_none_or(|behind| behind.is_by_strips())
     }
 
     /// Returns the memory that a single frame needs in all: with the program, further channels, and what lies behind.
@@ -515,7 +514,7 @@ impl ConvertJob {
                     let message = "channels beside the picture are not blurred, and are those of the frame's own time";
                     warnings.push(Diagnostic::warning(Code::NoEffect, message));
                 }
-                let sum = self.frame_needs().pictures();
+                let sum = self.frame_needs().light_of_pictures();
                 self.prepared = self.prepared.saturating_add(sum);
                 self.memory.check_sum(self.frame_needs(), sum)?;
                 self.keep_room_for_rings();
@@ -527,7 +526,8 @@ impl ConvertJob {
 
     /// Keeps memory for a frame whose moments are rendered together, view by view, if there is enough.
     fn keep_room_for_rings(&mut self) {
-        let pixels = self.target.views.iter().map(|target| target.view.width() * target.view.height()).max();
+        let rows = if self.is_by_strips() { STRIP } else { usize::MAX };
+        let pixels = self.target.views.iter().map(|target| target.view.width() * target.view.height().min(rows)).max();
         let needed = (pixels.unwrap_or(0) * Exposure::MOST_SAMPLES * size_of::<Rgba>()) as u64;
         self.has_room_for_rings = self.memory.beside_frame(self.frame_needs()).bytes >= needed;
         if self.has_room_for_rings {

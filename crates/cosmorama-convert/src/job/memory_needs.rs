@@ -83,6 +83,8 @@ pub(crate) struct FrameNeeds {
     bands: u64,
     /// Samples of the pictures.
     encoded: u64,
+    /// Whether the pictures are made strip by strip.
+    is_by_strips: bool,
 }
 
 /// Bytes of a frame's samples.
@@ -131,6 +133,7 @@ impl FrameNeeds {
             piece: largest.saturating_mul(held.pixel),
             bands: 0,
             encoded: pixels.saturating_mul(held.encoded),
+            is_by_strips: false,
         };
         needs.beside_tables(input.views().map(|view| &view.nominal))
     }
@@ -180,6 +183,7 @@ impl FrameNeeds {
             pictures: written.saturating_add(strip(samples)),
             piece: light + light.min(self.piece),
             encoded: 0,
+            is_by_strips: true,
             ..self
         }
     }
@@ -207,6 +211,11 @@ impl FrameNeeds {
     /// Returns the bytes of the pictures.
     pub(crate) fn pictures(self) -> u64 {
         self.pictures
+    }
+
+    /// Returns the bytes of the light of the pictures, or of the strips, that are made at once.
+    pub(crate) fn light_of_pictures(self) -> u64 {
+        if self.is_by_strips { self.piece } else { self.pictures }
     }
 }
 
@@ -356,7 +365,9 @@ impl MemoryBudget {
     pub(crate) fn queue_depth(self, needs: FrameNeeds, files: usize, plans: u64, threads: usize) -> QueueDepth {
         let wanted = |files: usize| 1 + threads.div_ceil(files.max(1));
         let room = self.beside_program(threads).saturating_sub(plans).saturating_sub(needs.shared);
-        QueueDepth::fitting(room, needs.in_sequence(), (wanted(needs.samples.files), wanted(files)))
+        // By strips, pictures are encoded as they are made.
+        let written = if needs.is_by_strips { 1 } else { wanted(files) };
+        QueueDepth::fitting(room, needs.in_sequence(), (wanted(needs.samples.files), written))
     }
 }
 

@@ -8,6 +8,7 @@ pub(crate) mod light;
 mod movement;
 pub(crate) mod picture;
 pub(crate) mod sheets;
+mod strip;
 
 pub(crate) use chain::{name_of_level, whole_chain};
 pub(crate) use light::of_light;
@@ -15,6 +16,7 @@ pub use light::{CHAIN_EDGE, is_cube_of_light};
 pub(crate) use movement::{Movement, time};
 pub use picture::Picture;
 pub(crate) use sheets::{Sheet, Target, TargetFile, TargetView};
+pub(crate) use strip::Strip;
 
 use crate::diagnostic::Diagnostic;
 use crate::settings::GeometrySettings;

@@ -1,6 +1,7 @@
 //! Frames under an open shutter.
 
-use std::path::PathBuf;
+use std::borrow::Cow;
+use std::sync::Arc;
 
 use cosmorama::camera::View;
 use cosmorama::filter::FilterKind;
@@ -14,7 +15,7 @@ use crate::diagnostic::{Result, bail};
 use crate::engine::{Engine, FrameLight, Levels, Shares, Texels};
 use crate::job::FrameOutputs;
 use crate::settings::{BlurMethod, MotionBlur};
-use crate::target::{TargetView, time};
+use crate::target::{Sheet, Strip, TargetView, time};
 
 impl Engine<'_> {
     /// Returns the moments of a frame's exposure; `None` where nothing is blurred.
@@ -30,44 +31,53 @@ impl Engine<'_> {
     /// distances or of names would be neither.
     pub(super) fn render_blurred(
         &self,
-        frame: &FrameOutputs,
+        part: FramePart,
         (light, moments): (&FrameLight, &[Moment]),
         progress: &dyn Progress,
     ) -> Result<Vec<Levels>> {
-        let job = self.job;
+        let (job, frame) = (self.job, part.frame);
         let Some(blur) = job.movement.as_ref().and_then(|movement| movement.blur) else {
             bail!("a camera without movement cannot blur")
         };
         let passes = job.layers.groups.len();
         let share = Share { whole: progress, from: 0.0, to: 1.0 / (1 + passes) as f64 };
-        let exposed = Exposed { moments, blur, time: time(frame.frame.unwrap_or_default()) };
+        let exposed = Exposed { part, moments, blur, time: time(frame.frame.unwrap_or_default()) };
         let is_at_once = || self.is_swept_at_once((job.place(frame.frame), light), moments);
         let pictures = match blur.method {
             BlurMethod::Swept if job.has_room_for_rings && is_at_once()? => {
-                self.swept_at_once(frame, light, &exposed, &share)?
+                self.swept_at_once(light, &exposed, &share)?
             }
-            BlurMethod::Swept => self.swept(frame, (light, moments), &share)?,
-            BlurMethod::Ellipse => self.ellipse(frame, light, &exposed, &share)?,
+            BlurMethod::Swept => self.swept(light, &exposed, &share)?,
+            BlurMethod::Ellipse => self.ellipse(light, &exposed, &share)?,
         };
         if job.layers.is_plain() {
             return Ok(pictures);
         }
         let layer = self.layer(frame, progress)?;
         let rest = Share { whole: progress, from: share.to, to: 1.0 };
-        let shares = self.shares(&rest, frame, passes);
+        let shares = self.shares(&rest, part, passes);
         self.with_channels(frame, pictures, &mut Making { layer, shares })
     }
 
-    /// Splits the progress of a frame whose views are made so many times.
-    fn shares<'p>(&self, progress: &'p dyn Progress, frame: &FrameOutputs, times: usize) -> Shares<'p> {
-        let views = self.views_of(frame);
+    /// Splits the progress of views that are made so many times.
+    fn shares<'p>(&self, progress: &'p dyn Progress, part: FramePart, times: usize) -> Shares<'p> {
+        let views = part.views(&self.job.target.views);
+        let sheets = self.sheets_of(part).into_iter().flatten();
+        let views: Vec<&View> = sheets.flat_map(|sheet| &sheet.pieces).map(|(index, _)| &views[*index].view).collect();
         Shares::new(progress, views.iter().copied().cycle().take(times * views.len()))
     }
 
-    /// Returns the views of a frame's files, in the order in which they are made.
-    fn views_of(&self, frame: &FrameOutputs) -> Vec<&View> {
-        let sheets = frame.files.iter().flat_map(|(file, _)| self.job.target.files[*file].levels());
-        sheets.flat_map(|sheet| &sheet.pieces).map(|(index, _)| &self.job.target.views[*index].view).collect()
+    /// Returns the sheets of each file.
+    fn sheets_of<'p>(&'p self, part: FramePart<'p>) -> Vec<Vec<&'p Sheet>> {
+        match part.strip {
+            Some(strip) => vec![vec![&strip.sheet]],
+            None => part.frame.files.iter().map(|(file, _)| self.job.target.files[*file].levels().collect()).collect(),
+        }
+    }
+
+    /// Returns the geometry of a part of a frame, of that of the whole.
+    fn layer_of_part(&self, part: FramePart, whole: Layer) -> Result<Layer> {
+        if let Some(strip) = part.strip { self.layer_of_strip(&whole, strip) } else { Ok(whole) }
     }
 
     /// Returns whether the moments of a frame may be rendered together: nothing is done with their pictures but to sum them, and to lay
@@ -89,16 +99,11 @@ impl Engine<'_> {
     }
 
     /// Renders each view through the open shutter.
-    fn swept_at_once(
-        &self,
-        frame: &FrameOutputs,
-        light: &FrameLight,
-        exposed: &Exposed,
-        progress: &dyn Progress,
-    ) -> Result<Vec<Levels>> {
-        let mut layer = self.layer(frame, progress)?;
-        let mut shares = self.shares(progress, frame, self.layers());
-        self.pictures_of(frame, |index| {
+    fn swept_at_once(&self, light: &FrameLight, exposed: &Exposed, progress: &dyn Progress) -> Result<Vec<Levels>> {
+        let (part, frame) = (exposed.part, exposed.part.frame);
+        let mut layer = self.layer_of_part(part, self.layer(frame, progress)?)?;
+        let mut shares = self.shares(progress, part, self.layers());
+        self.pictures_of(part, |index| {
             let mut image = self.swept_view(index, (frame.frame, light), (&mut layer, exposed), &mut shares)?;
             self.lay_background((&layer.posed, index), &mut image);
             Ok(image)
@@ -116,9 +121,9 @@ impl Engine<'_> {
     ) -> Result<Image<Rgba>> {
         if let Some(behind) = &self.behind {
             let mut image = self.alone(index, (frame, light), layer, shares)?;
+            let posed = Arc::clone(&layer.posed);
             if let Some(layer) = &mut layer.behind {
-                let view = &self.job.target.views[index].view;
-                behind.lay_under((view, &mut image), layer.place, |engine, light| {
+                behind.lay_under((&posed.views[index].view, &mut image), layer.place, |engine, light| {
                     engine.swept_view(index, light, (layer, exposed), shares)
                 })?;
             }
@@ -132,20 +137,18 @@ impl Engine<'_> {
     }
 
     /// Sums the pictures of all moments, each weighed by its part of the light: every pixel goes its own way.
-    fn swept(
-        &self,
-        frame: &FrameOutputs,
-        (light, moments): (&FrameLight, &[Moment]),
-        progress: &dyn Progress,
-    ) -> Result<Vec<Levels>> {
+    fn swept(&self, light: &FrameLight, exposed: &Exposed, progress: &dyn Progress) -> Result<Vec<Levels>> {
+        let Exposed { part, moments, .. } = *exposed;
+        let (frame, sheets) = (part.frame, self.sheets_of(part));
         let mut sums: Vec<Vec<LightSum>> = Vec::new();
         for (k, moment) in moments.iter().enumerate() {
-            let part = |k: usize| k as f64 / moments.len() as f64;
-            let share = Share { whole: progress, from: part(k), to: part(k + 1) };
+            let at = |k: usize| k as f64 / moments.len() as f64;
+            let share = Share { whole: progress, from: at(k), to: at(k + 1) };
             let layer = self.layer_at(moment.time, frame, &Share { to: share.from, ..share })?;
-            let mut making = Making { layer, shares: self.shares(&share, frame, self.layers()) };
-            for (place, (file, _)) in frame.files.iter().enumerate() {
-                let Levels::Light(images) = self.render_file(*file, (frame.frame, light), &mut making)? else {
+            let layer = self.layer_of_part(part, layer)?;
+            let mut making = Making { layer, shares: self.shares(&share, part, self.layers()) };
+            for (place, sheets) in sheets.iter().enumerate() {
+                let Levels::Light(images) = self.render_sheets(sheets, (frame.frame, light), &mut making)? else {
                     bail!("code values where light was expected")
                 };
                 self.gather(&mut sums, place, images, moment.weight as f32);
@@ -167,16 +170,11 @@ impl Engine<'_> {
     }
 
     /// Averages the world once for each pixel, over its footprint and its path together.
-    fn ellipse(
-        &self,
-        frame: &FrameOutputs,
-        light: &FrameLight,
-        exposed: &Exposed,
-        progress: &dyn Progress,
-    ) -> Result<Vec<Levels>> {
-        let layer = self.layer(frame, progress)?;
-        let mut shares = self.shares(progress, frame, 1);
-        self.pictures_of(frame, |index| {
+    fn ellipse(&self, light: &FrameLight, exposed: &Exposed, progress: &dyn Progress) -> Result<Vec<Levels>> {
+        let (part, frame) = (exposed.part, exposed.part.frame);
+        let layer = self.layer_of_part(part, self.layer(frame, progress)?)?;
+        let mut shares = self.shares(progress, part, 1);
+        self.pictures_of(part, |index| {
             let share = shares.next(&layer.posed.views[index].view);
             let mut image = self.widened(index, (frame.frame, light), (&layer, exposed), &share)?;
             self.lay_background((&layer.posed, index), &mut image);
@@ -184,19 +182,14 @@ impl Engine<'_> {
         })
     }
 
-    /// Assembles the files of a frame from pictures of the target's views.
-    fn pictures_of(
-        &self,
-        frame: &FrameOutputs,
-        mut view: impl FnMut(usize) -> Result<Image<Rgba>>,
-    ) -> Result<Vec<Levels>> {
+    /// Assembles files from pictures of views.
+    fn pictures_of(&self, part: FramePart, mut view: impl FnMut(usize) -> Result<Image<Rgba>>) -> Result<Vec<Levels>> {
         let background = self.job.light.background;
-        let file = |(file, _): &(usize, PathBuf)| {
-            let sheets = self.job.target.files[*file].levels();
-            let images = sheets.map(|sheet| sheet.assemble_in(&self.pool, background, &mut view));
+        let file = |sheets: Vec<&Sheet>| {
+            let images = sheets.iter().map(|sheet| sheet.assemble_in(&self.pool, background, &mut view));
             Ok(Levels::Light(images.collect::<Result<_>>()?))
         };
-        frame.files.iter().map(file).collect()
+        self.sheets_of(part).into_iter().map(file).collect()
     }
 
     /// Renders a view of the target by ellipses, with what lies behind it, over nothing.
@@ -232,7 +225,7 @@ impl Engine<'_> {
         let job = self.job;
         let seen = |moment: &Moment| {
             let pose = job.movement.as_ref().map(|movement| movement.pose(moment.time));
-            Ok((*moment, job.views_in(pose.as_ref())?[index].view.clone()))
+            Ok((*moment, exposed.part.views(&job.views_in(pose.as_ref())?)[index].view.clone()))
         };
         let seen: Vec<(Moment, View)> = exposed.moments.iter().map(seen).collect::<Result<_>>()?;
         Ok(Exposure::of_moments(&seen, &exposed.blur.shutter, exposed.time))
@@ -245,8 +238,24 @@ impl Engine<'_> {
     }
 }
 
+/// What is made of a frame at once.
+#[derive(Clone, Copy)]
+pub(super) struct FramePart<'a> {
+    pub(super) frame: &'a FrameOutputs,
+    /// Strip of one of its files; all of them if there is none.
+    pub(super) strip: Option<&'a Strip>,
+}
+
+impl FramePart<'_> {
+    /// Returns what it shows of the target's views, in whatever pose these are.
+    fn views<'v>(&self, whole: &'v [TargetView]) -> Cow<'v, [TargetView]> {
+        self.strip.map_or(Cow::Borrowed(whole), |strip| Cow::Owned(strip.views(whole)))
+    }
+}
+
 /// An exposure of all views.
 struct Exposed<'a> {
+    part: FramePart<'a>,
     moments: &'a [Moment],
     blur: MotionBlur,
     /// Time of the frame.

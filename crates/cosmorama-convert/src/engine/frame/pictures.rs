@@ -13,6 +13,7 @@ use crate::detect::FacePixels;
 use crate::detect::pixels::light_of;
 use crate::diagnostic::{BACKGROUND, Code, ConvertError, Diagnostic, MISSING, Result, bail};
 use crate::engine::frame::behind::Behind;
+use crate::engine::frame::blur::FramePart;
 use crate::engine::frame::strips::KeptStrips;
 use crate::engine::geometry::arithmetic;
 use crate::engine::unfiltered::formula;
@@ -282,8 +283,11 @@ impl<'a> Engine<'a> {
         if let Some(maps) = LightMaps::of(self.job, light.texels())? {
             return self.render_maps(frame, (light, &maps), progress);
         }
+        if self.job.is_by_strips() {
+            return self.strips(frame, light, progress);
+        }
         if let Some(moments) = self.blur_of(frame)? {
-            return self.render_blurred(frame, (light, &moments), progress);
+            return self.render_blurred(FramePart { frame, strip: None }, (light, &moments), progress);
         }
         let layer = self.layer(frame, progress)?;
         let Target { views, files, .. } = &self.job.target;
@@ -294,14 +298,12 @@ impl<'a> Engine<'a> {
         let times = if layers.leaves_picture_out() { 0 } else { self.layers() } + layers.groups.len();
         let all = views.iter().copied().cycle().take(views.len() * times);
         let mut making = Making { layer, shares: Shares::new(progress, all) };
-        let mut picture = |(index, path): &(usize, PathBuf)| {
+        let mut picture = |(index, _): &(usize, PathBuf)| {
             if layers.leaves_picture_out() {
                 return Ok(Levels::Light(Vec::new()));
             }
-            if self.job.is_by_strips() {
-                return Ok(Levels::Written(self.strips((*index, path), (frame.frame, light), &mut making)?));
-            }
-            self.render_file(*index, (frame.frame, light), &mut making)
+            let sheets: Vec<&Sheet> = files[*index].levels().collect();
+            self.render_sheets(&sheets, (frame.frame, light), &mut making)
         };
         let pictures = frame.files.iter().map(&mut picture).collect::<Result<Vec<Levels>>>()?;
         if layers.is_plain() { Ok(pictures) } else { self.with_channels(frame, pictures, &mut making) }
@@ -356,16 +358,6 @@ impl<'a> Engine<'a> {
         };
         let picture = |sheet: &Sheet| sheet.assemble_in(&self.pool, self.job.light.background, view);
         Ok(Levels::Light(self.job.target.files[file].levels().map(picture).collect::<Result<_>>()?))
-    }
-
-    pub(super) fn render_file(
-        &self,
-        file: usize,
-        (frame, light): (Option<u64>, &FrameLight),
-        making: &mut Making,
-    ) -> Result<Levels> {
-        let sheets: Vec<&Sheet> = self.job.target.files[file].levels().collect();
-        self.render_sheets(&sheets, (frame, light), making)
     }
 
     /// Renders sheets, whose pieces are views of the geometry in `making`.
@@ -457,9 +449,9 @@ impl<'a> Engine<'a> {
         shares: &mut Shares,
     ) -> Result<Image<Rgba>> {
         let mut image = self.alone(index, (frame, light), layer, shares)?;
+        let posed = Arc::clone(&layer.posed);
         if let (Some(behind), Some(layer)) = (&self.behind, &mut layer.behind) {
-            let view = &self.job.target.views[index].view;
-            behind.lay_under((view, &mut image), layer.place, |engine, light| {
+            behind.lay_under((&posed.views[index].view, &mut image), layer.place, |engine, light| {
                 engine.layered(index, light, layer, shares)
             })?;
         }

@@ -1,27 +1,27 @@
 //! Pictures that are too large to be held. They are made strip by strip while they are written.
 
 use std::ops::{ControlFlow, Range};
-use std::path::Path;
+use std::path::PathBuf;
 use std::sync::Arc;
 
-use cosmorama::camera::View;
-use cosmorama::motion::Pose;
+use cosmorama::motion::Moment;
 use cosmorama::raster::{EncodedImage, Threads};
 use cosmorama::render::{Progress, Share, Stopped};
 use cosmorama_io::pending::Hidden;
 
+use super::blur::FramePart;
 use super::pictures::{Engine, Layer, Making};
-use crate::diagnostic::{ConvertError, Diagnostic, Result, bail, failure};
+use crate::diagnostic::{ConvertError, Diagnostic, Result, failure};
 use crate::engine::{BalancedLight, FrameLight, FrameWords, Geometry, Levels, Posed, Shares};
-use crate::job::{ConvertJob, STRIP};
-use crate::target::{Sheet, TargetFile, TargetView};
+use crate::job::{ConvertJob, FrameOutputs, STRIP};
+use crate::target::{Strip, TargetFile};
 
 /// Geometry of the strips of a job's pictures, which all its frames share: as much of it as fits into memory. Empty where strips are
 /// made once, and where the camera moves.
 #[derive(Default)]
 pub(crate) struct KeptStrips {
-    /// Of each file, from above.
-    files: Vec<Vec<Arc<Geometry>>>,
+    /// Rows and geometry of the strips of each file, from above.
+    files: Vec<Vec<(Range<usize>, Arc<Geometry>)>>,
 }
 
 impl KeptStrips {
@@ -38,16 +38,17 @@ impl KeptStrips {
         let (mut kept, mut told) = (Self::default(), Vec::new());
         let pixels: usize = job.target.files.iter().map(|file| area(file.sheet.size)).sum();
         let (mut bytes, mut done) = (0, 0);
-        for TargetFile { sheet, .. } in &job.target.files {
+        for (file, TargetFile { sheet, .. }) in job.target.files.iter().enumerate() {
             let mut strips = Vec::new();
             for top in (0..sheet.size.1).step_by(STRIP) {
-                let strip = Strip::of((&job.target.views, sheet), top..sheet.size.1.min(top + STRIP));
+                let strip = Strip::of(&job.target, file, top..sheet.size.1.min(top + STRIP));
                 let at = |done: usize| done as f64 / pixels as f64;
                 let share = Share { whole: progress, from: at(done), to: at(done + area(strip.sheet.size)) };
                 done += area(strip.sheet.size);
-                let (geometry, warnings) = Geometry::compile(job, (&strip.views, true), bytes, &share)?;
+                let views = strip.views(&job.target.views);
+                let (geometry, warnings) = Geometry::compile(job, (&views, true), bytes, &share)?;
                 bytes += geometry.bytes();
-                strips.push(Arc::new(geometry));
+                strips.push((strip.rows, Arc::new(geometry)));
                 told.extend(warnings.into_iter().filter(|warning| !told.contains(warning)).collect::<Vec<_>>());
             }
             kept.files.push(strips);
@@ -55,15 +56,14 @@ impl KeptStrips {
         Ok((kept, told))
     }
 
-    /// Returns the geometry of these rows of a file, if they are a strip.
-    fn of(&self, file: usize, rows: &Range<usize>, height: usize) -> Option<Arc<Geometry>> {
-        let is_strip = rows.start % STRIP == 0 && rows.end == height.min(rows.start + STRIP);
-        let strips = self.files.get(file).filter(|_| is_strip)?;
-        strips.get(rows.start / STRIP).map(Arc::clone)
+    /// Returns the geometry of a strip, if it is kept.
+    fn of(&self, strip: &Strip) -> Option<Arc<Geometry>> {
+        let kept = self.files.get(strip.file)?.get(strip.rows.start / STRIP);
+        kept.filter(|(rows, _)| *rows == strip.rows).map(|(_, geometry)| Arc::clone(geometry))
     }
 
     fn all(&self) -> impl Iterator<Item = &Geometry> {
-        self.files.iter().flatten().map(|geometry| &**geometry)
+        self.files.iter().flatten().map(|(_, geometry)| &**geometry)
     }
 
     /// Returns the number of plans that are kept.
@@ -77,71 +77,83 @@ impl KeptStrips {
     }
 }
 
-/// Rows of a sheet, with the views that lie there.
-struct Strip {
-    /// Sheet of these rows alone.
-    sheet: Sheet,
-    /// Parts of its pieces, in their order.
-    views: Vec<TargetView>,
-}
-
-impl Strip {
-    /// Returns the strip of these rows of a sheet of views.
-    fn of((views, sheet): (&[TargetView], &Sheet), rows: Range<usize>) -> Self {
-        let mut strip =
-            Self { sheet: Sheet { size: (sheet.size.0, rows.len()), pieces: Vec::new() }, views: Vec::new() };
-        for &(index, (left, top)) in &sheet.pieces {
-            let whole = &views[index];
-            let (first, end) = (rows.start.max(top), rows.end.min(top + whole.view.height()));
-            if first < end {
-                let grid = whole.view.grid.window(whole.view.width(), end - first, 0.0, (first - top) as f64);
-                strip.sheet.pieces.push((strip.views.len(), (left, first - rows.start)));
-                strip.views.push(TargetView { view: View { grid, ..whole.view.clone() }, ..whole.clone() });
-            }
-        }
-        strip
-    }
+/// A frame whose files are made strip by strip.
+#[derive(Clone, Copy)]
+struct Whole<'a> {
+    frame: &'a FrameOutputs,
+    light: &'a FrameLight,
+    layer: &'a Layer,
+    /// Moments of its exposure.
+    moments: Option<&'a [Moment]>,
+    progress: &'a dyn Progress,
 }
 
 impl Engine<'_> {
-    /// Makes a file and writes it, but for its name.
+    /// Makes the files of a frame and writes them, but for their names.
     pub(super) fn strips(
         &self,
-        (file, path): (usize, &Path),
-        (frame, light): (Option<u64>, &FrameLight),
-        making: &mut Making,
-    ) -> Result<Hidden> {
-        let sheet = &self.job.target.files[file].sheet;
-        let Layer { place, posed: whole, .. } = &making.layer;
-        let mut shares = sheet.pieces.iter().map(|(index, _)| making.shares.next(&whole.views[*index].view));
-        let Some(first) = shares.next() else { bail!("a picture of nothing") };
-        let share = Share { to: shares.last().map_or(first.to, |last| last.to), ..first };
-        let at = |rows: usize| (rows as f64 / sheet.size.1 as f64).min(1.0);
+        frame: &FrameOutputs,
+        light: &FrameLight,
+        progress: &dyn Progress,
+    ) -> Result<Vec<Levels>> {
+        let (layer, moments) = (self.layer(frame, progress)?, self.blur_of(frame)?);
+        let pixels_of = |(file, _): &(usize, PathBuf)| area(self.job.target.files[*file].sheet.size);
+        let pixels: usize = frame.files.iter().map(pixels_of).sum();
+        let mut done = 0;
+        let written = |file: &(usize, PathBuf)| {
+            let at = |done: usize| done as f64 / pixels as f64;
+            let share = Share { whole: progress, from: at(done), to: at(done + pixels_of(file)) };
+            done += pixels_of(file);
+            let whole = Whole { frame, light, layer: &layer, moments: moments.as_deref(), progress: &share };
+            Ok(Levels::Written(self.file_by_strips(&whole, file)?))
+        };
+        frame.files.iter().map(written).collect()
+    }
+
+    fn file_by_strips(&self, whole: &Whole, (file, path): &(usize, PathBuf)) -> Result<Hidden> {
+        let size = self.job.target.files[*file].sheet.size;
+        let at = |rows: usize| (rows as f64 / size.1 as f64).min(1.0);
         let (mut done, mut failed) = (0, None);
         let mut make = |rows: Range<usize>| {
-            let share = Share { whole: &share, from: at(done), to: at(done + rows.len()) };
+            let share = Share { whole: whole.progress, from: at(done), to: at(done + rows.len()) };
             done += rows.len();
-            let strip = Strip::of((&whole.views, sheet), rows.clone());
-            let kept = self.strips.of(file, &rows, sheet.size.1);
-            let made = self.strip((*place, whole.pose), (strip, kept), (frame, light), &share);
+            let made = self.strip(&Whole { progress: &share, ..*whole }, &Strip::of(&self.job.target, *file, rows));
             made.map_err(|error: ConvertError| failed = Some(error)).ok()
         };
-        let origin = self.job.origin_of(frame)?.map(Arc::from);
-        let words = FrameWords { place: *place, carried: light.carried(), origin };
-        let written = self.writer().save_rows(words, path, (sheet.size, STRIP), &mut make);
+        let origin = self.job.origin_of(whole.frame.frame)?.map(Arc::from);
+        let words = FrameWords { place: whole.layer.place, carried: whole.light.carried(), origin };
+        let written = self.writer().save_rows(words, path, (size, STRIP), &mut make);
         failed.map_or(written, Err)
     }
 
-    /// Makes the samples of a strip, whose geometry may be kept.
-    fn strip(
-        &self,
-        (place, pose): (usize, Option<Pose>),
-        (Strip { sheet, views }, kept): (Strip, Option<Arc<Geometry>>),
-        light: (Option<u64>, &FrameLight),
-        progress: &dyn Progress,
-    ) -> Result<EncodedImage> {
-        let shares = Shares::new(progress, views.iter().map(|target| &target.view));
-        let posed = match kept {
+    /// Makes the samples of a strip.
+    fn strip(&self, whole: &Whole, strip: &Strip) -> Result<EncodedImage> {
+        let &Whole { frame, light, moments, progress, .. } = whole;
+        let made = match moments {
+            Some(moments) => {
+                let part = FramePart { frame, strip: Some(strip) };
+                self.render_blurred(part, (light, moments), progress)?.pop()
+            }
+            None => {
+                let layer = self.layer_of_strip(whole.layer, strip)?;
+                let views = strip.views(&self.job.target.views);
+                let all = views.iter().map(|target| &target.view).cycle().take(views.len() * self.layers());
+                let making = &mut Making { layer, shares: Shares::new(progress, all) };
+                Some(self.render_sheets(&[&strip.sheet], (frame.frame, light), making)?)
+            }
+        };
+        let encoded = match made {
+            Some(Levels::Light(mut made)) => made.pop().map(|image| self.writer().encode(image, Threads::All)),
+            Some(Levels::Codes(mut made)) => made.pop().map(EncodedImage::of_codes),
+            Some(Levels::Written(_) | Levels::Layered { .. }) | None => None,
+        };
+        encoded.ok_or_else(|| failure!("a strip has no picture"))
+    }
+
+    /// Returns the geometry of a strip, and of what lies behind it, in the pose of the whole.
+    pub(super) fn layer_of_strip(&self, whole: &Layer, strip: &Strip) -> Result<Layer> {
+        let (pose, views) = (whole.posed.pose, strip.views(&whole.posed.views));
+        let posed = match self.strips.of(strip) {
             Some(geometry) => Posed::of((pose, views), geometry),
             // What is told of the geometry is told of the whole.
             None => {
@@ -149,13 +161,10 @@ impl Engine<'_> {
                 posed.map_err(|Stopped| self.stopped())?.0
             }
         };
-        let layer = Layer { place, posed: Arc::new(posed), balanced: BalancedLight::default(), behind: None };
-        let made = match self.render_sheets(&[&sheet], light, &mut Making { layer, shares })? {
-            Levels::Light(made) => made.into_iter().next().map(|image| self.writer().encode(image, Threads::All)),
-            Levels::Codes(made) => made.into_iter().next().map(EncodedImage::of_codes),
-            Levels::Written(_) | Levels::Layered { .. } => None,
-        };
-        made.ok_or_else(|| failure!("a strip has no picture"))
+        let behind = self.behind.as_ref().zip(whole.behind.as_ref());
+        let behind = behind.map(|(behind, whole)| behind.engine.layer_of_strip(whole, strip).map(Box::new));
+        let (posed, behind) = (Arc::new(posed), behind.transpose()?);
+        Ok(Layer { place: whole.place, posed, balanced: BalancedLight::default(), behind })
     }
 }
 
@@ -165,12 +174,14 @@ fn area((width, height): (usize, usize)) -> usize {
 
 #[cfg(test)]
 mod tests {
+    use cosmorama::motion::{Easing, Ramp, Shutter};
     use cosmorama::raster::{Channels, Depth, FramePool, Samples};
-    use cosmorama_io::WriteOptions;
+    use cosmorama_io::{FrameList, WriteOptions};
 
     use super::*;
+    use crate::conversion::Checked;
     use crate::engine::{FrameFile, Spent, Texels, ViewImage, Which, WriterOptions};
-    use crate::settings::{Conversion, Existing};
+    use crate::settings::{Backdrop, BlurMethod, CameraMovement, Conversion, Existing, MotionBlur};
 
     /// Compares pictures of three strips, whose last is not whole, with those that are made at once.
     #[test]
@@ -201,50 +212,110 @@ mod tests {
             let conversion = conversion.from("equirect".parse().unwrap());
             let conversion = conversion.size(size.parse().unwrap()).existing(Existing::Replace);
             let checked = conversion.check().result.unwrap_or_else(|error| panic!("{to}: {error}"));
-            let (job, stages, pool) = (&checked.job, &checked.stages, FramePool::default());
-            let engine = Engine::new(job, WriterOptions::default(), progress).unwrap_or_else(|_| panic!("stopped"));
+            let job = &checked.job;
+            let engine = || Engine::new(job, WriterOptions::default(), progress).unwrap_or_else(|_| panic!("stopped"));
+            let (engine, mut keeping) = (engine(), engine());
             let (kept, told) = KeptStrips::compile(job, progress).unwrap_or_else(|_| panic!("stopped"));
             assert!(told.is_empty() && kept.bytes() > 0, "{to}: {told:?}");
-            let files = FrameFile::all(job, None, Which::All).into_iter();
-            let mut images: Vec<ViewImage> = files.flat_map(|file| file.read(job, &pool).unwrap()).collect();
-            let mut light = engine.frame_light();
-            light.fill(job, None, (&mut images, Spent::Freed), (stages, &pool)).unwrap();
-            assert_eq!(matches!(light.texels(), Texels::Fixed(_)), sky == "sky.png", "{to}");
+            keeping.strips = kept;
             let frame = &job.outputs.frames[0];
+            let light = light_of(&checked, &engine, frame);
+            assert_eq!(matches!(light.texels(), Texels::Fixed(_)), sky == "sky.png", "{to}");
+            let layer = engine.layer(frame, progress).unwrap();
+            let whole = Whole { frame, light: &light, layer: &layer, moments: None, progress };
             let form = |image: &EncodedImage| (image.width(), image.channels(), image.depth(), image.alpha_mode());
-            for (file, whole) in engine.render(frame, &light, progress).unwrap().into_iter().enumerate() {
-                let whole = match whole {
-                    Levels::Light(mut whole) => engine.writer().encode(whole.remove(0), Threads::All),
-                    Levels::Codes(mut whole) => EncodedImage::of_codes(whole.remove(0)),
+            for (file, picture) in engine.render(frame, &light, progress).unwrap().into_iter().enumerate() {
+                let picture = match picture {
+                    Levels::Light(mut picture) => engine.writer().encode(picture.remove(0), Threads::All),
+                    Levels::Codes(mut picture) => EncodedImage::of_codes(picture.remove(0)),
                     _ => panic!("{to}"),
                 };
-                let (views, sheet) = (&job.target.views[..], &job.target.files[file].sheet);
-                let (mut steps, mut others, of) = (0.0f32, 0, whole.samples().len());
-                for top in (0..whole.height()).step_by(STRIP) {
-                    let rows = top..whole.height().min(top + STRIP);
-                    let made = |kept: Option<Arc<Geometry>>| {
-                        let strip = Strip::of((views, sheet), rows.clone());
-                        engine.strip((0, None), (strip, kept), (None, &light), progress).unwrap()
-                    };
-                    let strip = made(None);
-                    let again = made(kept.of(file, &rows, whole.height()));
-                    assert!(strip.samples() == again.samples(), "{to}: with and without kept geometry");
-                    assert_eq!((form(&strip), strip.height()), (form(&whole), rows.len()), "{to}");
-                    let part = whole.cropped((0, rows.start), (whole.width(), rows.len()));
-                    steps = steps.max(steps_between(strip.samples(), part.samples()));
-                    others += other_codes(strip.samples(), part.samples());
+                let (mut steps, mut others, of) = (0.0f32, 0, picture.samples().len());
+                for top in (0..picture.height()).step_by(STRIP) {
+                    let rows = top..picture.height().min(top + STRIP);
+                    let strip = Strip::of(&job.target, file, rows.clone());
+                    let (made, again) = (engine.strip(&whole, &strip).unwrap(), keeping.strip(&whole, &strip).unwrap());
+                    assert!(made.samples() == again.samples(), "{to}: with and without kept geometry");
+                    assert_eq!((form(&made), made.height()), (form(&picture), rows.len()), "{to}");
+                    let part = picture.cropped((0, rows.start), (picture.width(), rows.len()));
+                    steps = steps.max(steps_between(made.samples(), part.samples()));
+                    others += other_codes(made.samples(), part.samples());
                 }
                 assert!(steps <= 1.0, "{to}: {steps} steps");
                 assert!(others <= of / 1000, "{to}: {others} codes of {of} are others");
-                let shares = Shares::new(progress, views.iter().map(|target| &target.view));
-                let mut making = Making { layer: engine.layer(frame, progress).unwrap(), shares };
-                let path = &frame.files[file].1;
-                engine.strips((file, path), (None, &light), &mut making).unwrap().appear().unwrap();
-                let file = cosmorama_io::probe(path).unwrap();
+                engine.file_by_strips(&whole, &frame.files[file]).unwrap().appear().unwrap();
+                let file = cosmorama_io::probe(&frame.files[file].1).unwrap();
                 let form = (file.width, file.height, file.channels, file.depth);
-                assert_eq!(form, (whole.width(), whole.height(), whole.channels(), whole.depth()), "{to}");
+                assert_eq!(form, (picture.width(), picture.height(), picture.channels(), picture.depth()), "{to}");
             }
         }
+    }
+
+    /// Compares strips of a frame whose camera moves, with and without blur, and with a world behind it, with its picture.
+    #[test]
+    fn strips_are_the_picture_that_a_moving_camera_takes() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name).display().to_string();
+        let smooth = |sample: usize| (sample as f32 * 0.013).sin() * 0.5 + 0.5;
+        let samples = Samples::Float((0..128 * 64 * 3).map(smooth).collect());
+        let sky = EncodedImage::new(128, 64, Channels::Rgb, Depth::Float, samples).unwrap();
+        cosmorama_io::write(path("sky.exr"), &sky, &WriteOptions::default()).unwrap();
+        let samples = Samples::Float((0..64 * 64 * 4).map(smooth).collect());
+        let front = EncodedImage::new(64, 64, Channels::Rgba, Depth::Float, samples).unwrap();
+        cosmorama_io::write(path("front.exr"), &front, &WriteOptions::default()).unwrap();
+        let progress = &|_: f64| ControlFlow::Continue(());
+        let blurs = [None, Some(BlurMethod::Swept), Some(BlurMethod::Ellipse)];
+        for (blur, has_backdrop) in blurs.into_iter().flat_map(|blur| [(blur, false), (blur, true)]) {
+            let angles = [(0.0, 12.0), (5.0, 9.0), (0.0, 6.0)].map(|(from, to)| Ramp { from, to });
+            let turn = CameraMovement::Turn { angles, fov: None, easing: Easing::default() };
+            let input =
+                if has_backdrop { ("front.exr", "perspective:fov=80,pitch=20") } else { ("sky.exr", "equirect") };
+            let conversion = Conversion::new(path(input.0), path("view_#.exr")).from(input.1.parse().unwrap());
+            let conversion = conversion.to("fulldome:tilt=30".parse().unwrap()).size("90x1100".parse().unwrap());
+            let mut conversion = conversion.moved(turn).frames(FrameList::new(vec![1, 2, 3]));
+            conversion.depth = Some(Depth::Float);
+            let shutter = Shutter::centred(0.8);
+            conversion.geometry.blur = blur.map(|method| MotionBlur { shutter, method });
+            if has_backdrop {
+                let behind = Backdrop { from: Some("equirect".parse().unwrap()), ..Backdrop::new(path("sky.exr")) };
+                conversion = conversion.over(behind);
+            }
+            let checked = conversion.check().result.unwrap();
+            let job = &checked.job;
+            let engine = Engine::new(job, WriterOptions::default(), progress).unwrap_or_else(|_| panic!("stopped"));
+            let frame = &job.outputs.frames[1];
+            let light = light_of(&checked, &engine, frame);
+            let moments = engine.blur_of(frame).unwrap();
+            assert_eq!(moments.is_some(), blur.is_some());
+            let Some(Levels::Light(mut picture)) = engine.render(frame, &light, progress).unwrap().pop() else {
+                panic!("no light")
+            };
+            let picture = engine.writer().encode(picture.remove(0), Threads::All);
+            let layer = engine.layer(frame, progress).unwrap();
+            let whole = Whole { frame, light: &light, layer: &layer, moments: moments.as_deref(), progress };
+            for top in (0..picture.height()).step_by(STRIP) {
+                let rows = top..picture.height().min(top + STRIP);
+                let made = engine.strip(&whole, &Strip::of(&job.target, 0, rows.clone())).unwrap();
+                let part = picture.cropped((0, rows.start), (picture.width(), rows.len()));
+                let (Samples::Float(made), Samples::Float(part)) = (made.samples(), part.samples()) else {
+                    panic!("no floats")
+                };
+                let farthest = made.iter().zip(part).map(|(made, part)| (made - part).abs()).fold(0.0, f32::max);
+                let most = if blur == Some(BlurMethod::Swept) { 1e-3 } else { 4e-6 };
+                assert!(farthest <= most, "{blur:?}, backdrop {has_backdrop}, row {top}: {farthest}");
+                assert!(made.iter().any(|sample| *sample > 0.5), "{blur:?}, backdrop {has_backdrop}, row {top}");
+            }
+        }
+    }
+
+    /// Reads the light of a frame.
+    fn light_of(checked: &Checked, engine: &Engine, frame: &FrameOutputs) -> FrameLight {
+        let (job, pool) = (&checked.job, FramePool::default());
+        let files = FrameFile::all(job, frame.frame, Which::All).into_iter();
+        let mut images: Vec<ViewImage> = files.flat_map(|file| file.read(job, &pool).unwrap()).collect();
+        let mut light = engine.frame_light();
+        light.fill(job, frame.frame, (&mut images, Spent::Freed), (&checked.stages, &pool)).unwrap();
+        light
     }
 
     /// Checks that memory is asked for a strip alone, of a picture and of each frame of a sequence, but for what a job holds whole.

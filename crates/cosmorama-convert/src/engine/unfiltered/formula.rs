@@ -1,5 +1,6 @@
 //! Pictures of worlds by formula, and maps of directions.
 
+use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -7,21 +8,41 @@ use cosmorama::camera::View;
 use cosmorama::motion::LightSum;
 use cosmorama::raster::{ColourMatrix, Depth, Image, Primaries, Rgba, Threads};
 use cosmorama_builtin::{BuiltinWorld, DirectionMap, DirectionPixel};
+use cosmorama_io::pending::Hidden;
 use cosmorama_io::{WriteOptions, write_planes};
 
 use crate::diagnostic::Result;
 use crate::engine::unfiltered::OutputFile;
 use crate::engine::{FrameWords, Levels, Stage, Writer, WriterOptions};
+use crate::job::{ConvertJob, STRIP};
+use crate::target::{Sheet, Strip, TargetView};
 
 /// Makes a picture of a world by formula.
 pub(crate) fn picture(output: &OutputFile, world: BuiltinWorld, options: &WriterOptions) -> Result<()> {
     let OutputFile { job, frame, place, stages, path, .. } = *output;
     let origin = job.origin_of(frame)?.map(Arc::from);
+    let words = FrameWords { place, origin, ..FrameWords::default() };
+    let writer = Writer::new(&job.light, &job.layers.picture, options.clone());
+    if job.is_by_strips() {
+        return Ok(stages.alone(Stage::Filter, || by_strips(output, world, &writer, words))?.appear()?);
+    }
     let levels = stages.alone(Stage::Filter, || levels(output, world))?;
-    stages.alone(Stage::Encode, || {
-        let words = FrameWords { place, origin, ..FrameWords::default() };
-        Writer::new(&job.light, &job.layers.picture, options.clone()).save(words, levels, path, Threads::All)
-    })
+    stages.alone(Stage::Encode, || writer.save(words, levels, path, Threads::All))
+}
+
+/// Makes a picture strip by strip and writes it, but for its name.
+fn by_strips(output: &OutputFile, world: BuiltinWorld, writer: &Writer, words: FrameWords) -> Result<Hidden> {
+    let OutputFile { job, views, exposure, index, path, .. } = *output;
+    let (size, mut failed) = (job.target.files[index].sheet.size, None);
+    let mut make = |rows: Range<usize>| {
+        let strip = Strip::of(&job.target, index, rows);
+        let exposed = |(views, weight): &(Vec<TargetView>, f32)| (strip.views(views), *weight);
+        let exposure: Vec<(Vec<TargetView>, f32)> = exposure.iter().map(exposed).collect();
+        let image = sheet(job, world, (&strip.sheet, &strip.views(views)), &exposure);
+        image.map_err(|error| failed = Some(error)).ok().map(|image| writer.encode(image, Threads::All))
+    };
+    let written = writer.save_rows(words, path, (size, STRIP), &mut make);
+    failed.map_or(written, Err)
 }
 
 /// Makes a map of directions.
@@ -35,7 +56,18 @@ pub(crate) fn directions(output: &OutputFile, map: DirectionMap) -> Result<()> {
 
 /// Renders a file's picture and its mip levels over their background.
 fn levels(output: &OutputFile, world: BuiltinWorld) -> Result<Levels> {
-    let OutputFile { job, exposure, index: file, .. } = *output;
+    let OutputFile { job, views, exposure, index: file, .. } = *output;
+    let levels = job.target.files[file].levels();
+    Ok(Levels::Light(levels.map(|level| sheet(job, world, (level, views), exposure)).collect::<Result<_>>()?))
+}
+
+/// Renders a sheet of views over its background, at one time or through an exposure.
+fn sheet(
+    job: &ConvertJob,
+    world: BuiltinWorld,
+    (sheet, views): (&Sheet, &[TargetView]),
+    exposure: &[(Vec<TargetView>, f32)],
+) -> Result<Image<Rgba>> {
     let background = job.light.background;
     let moment = |view: &View| {
         let mut image = light(world, view, &job.light.working.primaries);
@@ -48,10 +80,9 @@ fn levels(output: &OutputFile, world: BuiltinWorld) -> Result<Levels> {
             rest.iter().for_each(|(views, weight)| sum.add(&moment(&views[index].view), *weight));
             Ok(sum.into_image())
         }
-        _ => Ok(moment(&output.views[index].view)),
+        _ => Ok(moment(&views[index].view)),
     };
-    let levels = job.target.files[file].levels();
-    Ok(Levels::Light(levels.map(|sheet| sheet.assemble(background, picture)).collect::<Result<_>>()?))
+    sheet.assemble(background, picture)
 }
 
 /// Computes the light of a world in a view, in some primaries.
@@ -84,4 +115,37 @@ fn save_map(
     let planes = map.channels().iter().enumerate().map(|(number, name)| (*name, plane(number))).collect();
     write_planes(path, (pixels.width(), pixels.height()), planes, depth, options)?;
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::settings::{Conversion, Existing};
+
+    #[test]
+    fn strips_of_a_formula_are_its_picture() {
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["grid", "checker", "directions", "zone-plate", "demo"] {
+            for to in ["fulldome:tilt=20,yaw=10", "cube:layout=cross-h"] {
+                let output = folder.path().join("picture.exr").display().to_string();
+                let conversion = Conversion::new(format!("builtin:{name}"), output).to(to.parse().unwrap());
+                let conversion = conversion.size("600".parse().unwrap()).existing(Existing::Replace);
+                let checked = conversion.check().result.unwrap_or_else(|error| panic!("{name}: {error}"));
+                let (job, world) = (&checked.job, checked.job.formula().unwrap());
+                let whole = &job.target.files[0].sheet;
+                let picture = sheet(job, world, (whole, &job.target.views), &[]).unwrap();
+                for top in (0..picture.height()).step_by(250) {
+                    let rows = top..picture.height().min(top + 250);
+                    let strip = Strip::of(&job.target, 0, rows.clone());
+                    let made = sheet(job, world, (&strip.sheet, &strip.views(&job.target.views)), &[]).unwrap();
+                    assert_eq!((made.width(), made.height()), (picture.width(), rows.len()));
+                    let part = &picture.pixels()[rows.start * picture.width()..rows.end * picture.width()];
+                    let far =
+                        |(a, b): (&Rgba, &Rgba)| a.0.iter().zip(b.0).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+                    let farthest = made.pixels().iter().zip(part).map(far).fold(0.0, f32::max);
+                    assert!(farthest <= 4e-6, "{name} as {to}, row {top}: {farthest}");
+                }
+            }
+        }
+    }
 }
