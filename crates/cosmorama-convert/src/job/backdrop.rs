@@ -183,6 +183,7 @@ impl FoundBackdrop {
             lighting: None,
             content,
             backdrop,
+            is_behind: true,
             opacity: settings.opacity,
             missing,
             memory,

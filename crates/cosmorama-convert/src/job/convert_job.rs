@@ -16,7 +16,7 @@ use cosmorama_spec::Missing;
 use super::Content;
 use super::backdrop::{FoundBackdrop, Front};
 use super::gaps::Shot;
-use super::memory_needs::{FrameNeeds, Held, STRIP, gathered_bytes, is_large, program_bytes, with_reserve};
+use super::memory_needs::{FrameNeeds, Held, STRIP, gathered_bytes, is_large};
 use super::options::{check_file_options, filter};
 use crate::colour::{LayerPlan, Light, check_choice, check_labels, check_light};
 use crate::detect::unless_damaged;
@@ -64,6 +64,8 @@ pub(crate) struct ConvertJob {
     pub(super) content: Content,
     /// World behind the input.
     pub(crate) backdrop: Option<Box<ConvertJob>>,
+    /// Whether it is itself behind another.
+    pub(super) is_behind: bool,
     /// Factor of the input's light and its alpha.
     pub(crate) opacity: f32,
     /// Requested treatment of directions without light.
@@ -247,6 +249,7 @@ impl ConvertJob {
             lighting,
             content,
             backdrop,
+            is_behind: false,
             opacity: settings.opacity,
             missing,
             memory,
@@ -362,28 +365,6 @@ impl ConvertJob {
         self.content.formula()
     }
 
-    /// Returns the memory that its frames need, without what lies behind and without further channels.
-    pub(crate) fn frame_needs(&self) -> FrameNeeds {
-        let held = match self.content {
-            Content::Directions(map) => Held::directions(map),
-            _ if self.fixed_codec().is_some() => Held::INTEGERS,
-            _ => Held::floats(&self.light),
-        };
-        let needs = FrameNeeds::of(&self.input, &self.worlds, &self.target, held)
-            .with_prepared(self.prepared)
-            .beside_streams(self.input.ahead_bytes(&*self.files));
-        let is_one = self.input.frames.len() <= 1 && !self.outputs.are_many();
-        let needs = if is_one { needs } else { needs.of_many() };
-        let has_bands = self.content.has_files() && self.filter.kind == FilterKind::Ewa && self.lighting.is_none();
-        let views = self.target.views.iter().map(|target| (target.view.width(), target.view.height()));
-        let needs = if has_bands { needs.with_bands(self.input.texels() as u64, views) } else { needs };
-        if !self.is_by_strips() {
-            return needs;
-        }
-        let sizes: Vec<(usize, usize)> = self.target.files.iter().map(|file| file.sheet.size).collect();
-        needs.by_strips(self.target.format, &sizes)
-    }
-
     /// Returns whether the pictures of a frame are too large to be held: they are encoded strip by strip. Not where all of a picture must be
     /// there: to balance its light, by filters of several passes, and with further channels.
     pub(crate) fn is_by_strips(&self) -> bool {
@@ -402,15 +383,10 @@ impl ConvertJob {
             && self.backdrop.as_ref().is_none_or(|behind| behind.is_by_strips())
     }
 
-    /// Returns the memory that a single frame needs in all: with the program, further channels, and what lies behind.
-    pub(crate) fn estimated_bytes(&self, threads: usize) -> u64 {
-        let of_layer = |job: &Self| {
-            let made = job.target.files.iter().map(|file| file.sheet.size);
-            let made = made.map(|(width, height)| width as u64 * height as u64).fold(0, u64::saturating_add);
-            job.frame_needs().peak().saturating_add(job.layers.bytes(job.input.texels() as u64, made))
-        };
-        let pictures = self.layers().map(of_layer).fold(0, u64::saturating_add);
-        with_reserve(pictures).saturating_add(program_bytes(threads))
+    /// Returns whether pixels of a strip depend on those beside it, whatever the light: where views end, neighbours decide what becomes of
+    /// a pixel. What lies behind is cut in the same strips.
+    pub(crate) fn strips_have_margins(&self) -> bool {
+        self.is_behind || self.backdrop.is_some() || !self.is_complete()
     }
 
     /// Returns the codec of pictures that are filtered in integers; `None` unless all are opaque, of 8 bits, and fit 15-bit light.

@@ -4,6 +4,7 @@
 //! them holds, and not the sum of all.
 
 use cosmorama::camera::View;
+use cosmorama::filter::FilterKind;
 use cosmorama::projection::ProjectionKind;
 use cosmorama::raster::{FixedLight, Rgba};
 use cosmorama::world::World;
@@ -13,7 +14,7 @@ use cosmorama_io::{Format, Header};
 use crate::colour::{LayerPlan, Light};
 use crate::diagnostic::{CHANNELS, EVERY, Result, SHUTTER};
 use crate::input::{Input, InputView};
-use crate::job::{FrameMemory, QueueDepth};
+use crate::job::{Content, ConvertJob, FrameMemory, QueueDepth};
 use crate::source::MemoryBudget;
 use crate::source::memory_budget::{area, human, read_bytes};
 use crate::target::{Sheet, Target};
@@ -81,6 +82,8 @@ pub(crate) struct FrameNeeds {
     piece: u64,
     /// Weights of the rows that threads work on.
     bands: u64,
+    /// Masks of pixels that no view covers.
+    masks: u64,
     /// Samples of the pictures.
     encoded: u64,
     /// Whether the pictures are made strip by strip.
@@ -132,6 +135,7 @@ impl FrameNeeds {
             pictures: pixels.saturating_mul(held.pixel),
             piece: largest.saturating_mul(held.pixel),
             bands: 0,
+            masks: 0,
             encoded: pixels.saturating_mul(held.encoded),
             is_by_strips: false,
         };
@@ -152,6 +156,13 @@ impl FrameNeeds {
             all / (height as u64).max(1) * rows.min(height as u64)
         };
         Self { bands: views.map(bytes).max().unwrap_or(0), ..self }
+    }
+
+    /// Adds masks of views of these sizes, and the copy of one while it is made.
+    pub(crate) fn with_masks(self, views: impl Iterator<Item = (usize, usize)>) -> Self {
+        let pixels: Vec<u64> = views.map(area).collect();
+        let all = sum([pixels.iter().copied().fold(0, u64::saturating_add), pixels.iter().copied().max().unwrap_or(0)]);
+        Self { masks: all.saturating_mul(MASK), ..self }
     }
 
     /// Adds what is made of the input before pictures are, or copies of pictures.
@@ -183,6 +194,7 @@ impl FrameNeeds {
             pictures: written.saturating_add(strip(samples)),
             piece: light + light.min(self.piece),
             encoded: 0,
+            masks: if self.masks == 0 { 0 } else { strip(all.saturating_mul(2 * MASK)) },
             is_by_strips: true,
             ..self
         }
@@ -194,7 +206,7 @@ impl FrameNeeds {
         let Samples { all, scratch, is_kept, .. } = self.samples;
         let band = if is_kept { u64::MAX } else { (BAND * size_of::<Rgba>()) as u64 };
         let (first, last) = (sum([all, scratch.max(self.light.min(band))]), sum([self.light, all.min(band)]));
-        let filtered = sum([self.light, self.prepared, self.pictures, self.piece, self.bands]);
+        let filtered = sum([self.light, self.prepared, self.pictures, self.piece, self.bands, self.masks]);
         let written = sum([self.pictures, self.encoded]);
         self.shared.saturating_add(first.max(last).max(filtered).max(written))
     }
@@ -204,7 +216,7 @@ impl FrameNeeds {
     fn in_sequence(self) -> FrameMemory {
         let Samples { all, moving, scratch, .. } = self.samples;
         let written = self.pictures.saturating_add(self.encoded);
-        let once = sum([scratch, self.light, self.prepared, self.piece, self.bands]);
+        let once = sum([scratch, self.light, self.prepared, self.piece, self.bands, self.masks]);
         FrameMemory { all: sum([all, once, written]), read: moving, written }
     }
 
@@ -240,6 +252,48 @@ impl Samples {
         }
         found.scratch = found.scratch.min(MOST_SCRATCH.saturating_mul(rayon::current_num_threads() as u64));
         found
+    }
+}
+
+impl ConvertJob {
+    /// Returns the memory that its frames need, without what lies behind and without further channels.
+    pub(crate) fn frame_needs(&self) -> FrameNeeds {
+        let held = match self.content {
+            Content::Directions(map) => Held::directions(map),
+            _ if self.fixed_codec().is_some() => Held::INTEGERS,
+            _ => Held::floats(&self.light),
+        };
+        let needs = FrameNeeds::of(&self.input, &self.worlds, &self.target, held)
+            .with_prepared(self.prepared)
+            .beside_streams(self.input.ahead_bytes(&*self.files));
+        let is_one = self.input.frames.len() <= 1 && !self.outputs.are_many();
+        let needs = if is_one { needs } else { needs.of_many() };
+        let has_bands = self.content.has_files() && self.filter.kind == FilterKind::Ewa && self.lighting.is_none();
+        let views = self.target.views.iter().map(|target| (target.view.width(), target.view.height()));
+        let needs = if has_bands { needs.with_bands(self.input.texels() as u64, views.clone()) } else { needs };
+        let needs = if self.has_masks() { needs.with_masks(views) } else { needs };
+        if !self.is_by_strips() {
+            return needs;
+        }
+        let sizes: Vec<(usize, usize)> = self.target.files.iter().map(|file| file.sheet.size).collect();
+        needs.by_strips(self.target.format, &sizes)
+    }
+
+    /// Returns whether masks of its views are made: of what no view of the input covers, or of what lies outside the field of view.
+    fn has_masks(&self) -> bool {
+        let is_surrounded = self.light.channels.has_alpha() && self.light.background != Rgba::TRANSPARENT;
+        self.lighting.is_none() && self.content == Content::World && (!self.is_complete() || is_surrounded)
+    }
+
+    /// Returns the memory that a single frame needs in all: with the program, further channels, and what lies behind.
+    pub(crate) fn estimated_bytes(&self, threads: usize) -> u64 {
+        let of_layer = |job: &Self| {
+            let made = job.target.files.iter().map(|file| file.sheet.size);
+            let made = made.map(|(width, height)| width as u64 * height as u64).fold(0, u64::saturating_add);
+            job.frame_needs().peak().saturating_add(job.layers.bytes(job.input.texels() as u64, made))
+        };
+        let pictures = self.layers().map(of_layer).fold(0, u64::saturating_add);
+        with_reserve(pictures).saturating_add(program_bytes(threads))
     }
 }
 
@@ -411,6 +465,9 @@ fn pixels_in(sizes: impl Iterator<Item = (usize, usize)>) -> u64 {
 
 /// Rows of a strip.
 pub(crate) const STRIP: usize = 512;
+
+/// Bytes of a pixel of a mask.
+const MASK: u64 = 8;
 
 /// Rows that a thread works on.
 const BAND_ROWS: u64 = 32;

@@ -4,6 +4,7 @@ mod behind;
 mod blur;
 mod decisions;
 pub(crate) mod files;
+mod fill;
 pub(crate) mod light;
 pub(crate) mod pictures;
 mod strips;

@@ -3,7 +3,6 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock};
 
 use cosmorama::camera::View;
-use cosmorama::filter::Ewa;
 use cosmorama::raster::{Encoder, FixedCodec, FixedLight, FramePool, Image, Rgba};
 use cosmorama::render::{Continuation, Progress, Share, Stopped};
 use cosmorama::world::Source;
@@ -11,9 +10,10 @@ use cosmorama_io::WriteOptions;
 
 use crate::detect::FacePixels;
 use crate::detect::pixels::light_of;
-use crate::diagnostic::{BACKGROUND, Code, ConvertError, Diagnostic, MISSING, Result, bail};
+use crate::diagnostic::{BACKGROUND, Code, ConvertError, Diagnostic, Result, bail};
 use crate::engine::frame::behind::Behind;
 use crate::engine::frame::blur::FramePart;
+use crate::engine::frame::fill::counted;
 use crate::engine::frame::strips::KeptStrips;
 use crate::engine::geometry::arithmetic;
 use crate::engine::unfiltered::formula;
@@ -49,7 +49,7 @@ pub(crate) struct Engine<'a> {
     /// Pool of memory that frames hand on.
     pub(super) pool: Arc<FramePool>,
     /// Edges of the worlds, as far as something beyond them was asked for.
-    edges: Vec<OnceLock<Option<Continuation>>>,
+    pub(super) edges: Vec<OnceLock<Option<Continuation>>>,
     /// Figures of maps of light, by frame.
     lit: Mutex<Vec<LightReport>>,
 }
@@ -268,7 +268,7 @@ impl<'a> Engine<'a> {
     }
 
     /// Visits the views with missing texels, and their number.
-    fn incomplete<'b>(&'b self, light: &'b FrameLight) -> impl Iterator<Item = (&'b InputView, usize)> {
+    pub(super) fn incomplete<'b>(&'b self, light: &'b FrameLight) -> impl Iterator<Item = (&'b InputView, usize)> {
         let views = self.job.input.present().zip(light.counts());
         views.map(|((view, ..), counts)| (view, counts.irregular.missing)).filter(|(_, count)| *count > 0)
     }
@@ -511,81 +511,8 @@ impl<'a> Engine<'a> {
     }
 
     /// Returns whether texels of opaque inputs are missing.
-    fn has_holes(&self, light: &FrameLight) -> bool {
+    pub(super) fn has_holes(&self, light: &FrameLight) -> bool {
         !self.job.light.input_alpha && self.incomplete(light).next().is_some()
-    }
-
-    /// Applies the opacity of the input.
-    pub(super) fn thin(&self, image: &mut Image<Rgba>) {
-        let opacity = self.job.opacity;
-        if opacity < 1.0 {
-            image.pixels_mut().iter_mut().for_each(|pixel| *pixel = *pixel * opacity);
-        }
-    }
-
-    /// Fills what no view of the input covers.
-    pub(super) fn fill_unseen(
-        &self,
-        (posed, index): (&Posed, usize),
-        light: &FrameLight,
-        image: &mut Image<Rgba>,
-    ) -> Result<()> {
-        let (job, target) = (self.job, &posed.views[index]);
-        match job.coverage {
-            Coverage::Complete => {}
-            Coverage::Fill(colour) => posed.mask(job, index).fill_unseen(image, colour),
-            Coverage::Continue(beyond) => {
-                let Texels::Float(worlds) = light.texels() else { bail!("light of 8 bits where floats were expected") };
-                let place = target.world(worlds.len());
-                let world = job.world(target);
-                let Some(edge) = self.edges[place].get_or_init(|| Continuation::of(world)) else { return Ok(()) };
-                let filter = Ewa { kernel: job.filter.kernel, anti_ringing: job.filter.anti_ringing };
-                let prepared = filter.of_texels(world, &worlds[place]);
-                posed.mask(job, index).fill_by(image, |i, j| {
-                    let seen = target.view.screen_pixel(i, j).map(|screen| screen.footprint);
-                    let instead = seen.and_then(|pixel| edge.footprint(world, &pixel, beyond));
-                    instead.map_or(Rgba::TRANSPARENT, |footprint| prepared.average(&footprint))
-                });
-            }
-        }
-        Ok(())
-    }
-
-    /// Fills pixels of opaque inputs whose texels are missing: the remaining texels make the pixel, and a pixel without
-    /// any is treated as one without a view.
-    pub(super) fn close_holes(
-        &self,
-        (posed, index): (&Posed, usize),
-        (frame, light): (Option<u64>, &FrameLight),
-        image: &mut Image<Rgba>,
-    ) -> Result<()> {
-        if !self.has_holes(light) {
-            return Ok(());
-        }
-        let fill = self.job.fill_for_missing();
-        let empty = posed.mask(self.job, index).close_holes(image, fill.unwrap_or(Rgba::TRANSPARENT));
-        if empty > 0 && fill.is_none() {
-            let culprit =
-                |(view, count): (&InputView, usize)| format!("{} ({count})", view.files.path(frame).display());
-            let culprits: Vec<_> = self.incomplete(light).map(culprit).collect();
-            bail!(
-                NotANumber: "in {}, {} nothing but missing pixels (NaN), found in {}; render those again, or fill the \
-                 gaps with {MISSING} COLOR or {MISSING} transparent",
-                posed.views[index].name,
-                counted(empty, "sees", "see"),
-                culprits.join(", ")
-            );
-        }
-        Ok(())
-    }
-
-    pub(super) fn lay_background(&self, (posed, index): (&Posed, usize), image: &mut Image<Rgba>) {
-        let background = self.job.light.background;
-        if !self.job.light.channels.has_alpha() {
-            image.lay_over(background);
-        } else if background != Rgba::TRANSPARENT {
-            posed.mask(self.job, index).surround(image, background);
-        }
     }
 }
 
@@ -599,11 +526,6 @@ fn bytes_while_moving(job: &ConvertJob) -> u64 {
     let arithmetic = arithmetic(job);
     let plans = job.target.views.iter().map(|target| job.resampler(target).plan_bytes_estimate(arithmetic) as u64);
     plans.sum::<u64>().min(job.memory.left_for_plan(job.frame_needs(), rayon::current_num_threads()))
-}
-
-/// Counts pixels, with the verb for one and that for several.
-fn counted(pixels: usize, one: &str, several: &str) -> String {
-    if pixels == 1 { format!("1 pixel {one}") } else { format!("{pixels} pixels {several}") }
 }
 
 /// Returns how many bytes a pool may hold: as much as the frames in flight take, except their light, which has a buffer

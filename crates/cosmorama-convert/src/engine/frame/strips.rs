@@ -13,7 +13,7 @@ use super::blur::FramePart;
 use super::pictures::{Engine, Layer, Making};
 use crate::diagnostic::{ConvertError, Diagnostic, Result, failure};
 use crate::engine::{BalancedLight, FrameLight, FrameWords, Geometry, Levels, Posed, Shares};
-use crate::job::{ConvertJob, FrameOutputs, STRIP};
+use crate::job::{ConvertJob, FrameOutputs, STRIP, with_reserve};
 use crate::target::{Strip, TargetFile};
 
 /// Geometry of the strips of a job's pictures, which all its frames share: as much of it as fits into memory. Empty where strips are
@@ -41,13 +41,14 @@ impl KeptStrips {
         for (file, TargetFile { sheet, .. }) in job.target.files.iter().enumerate() {
             let mut strips = Vec::new();
             for top in (0..sheet.size.1).step_by(STRIP) {
-                let strip = Strip::of(&job.target, file, top..sheet.size.1.min(top + STRIP));
+                let rows = with_margin(top..sheet.size.1.min(top + STRIP), sheet.size.1, job.strips_have_margins());
+                let strip = Strip::of(&job.target, file, rows);
                 let at = |done: usize| done as f64 / pixels as f64;
                 let share = Share { whole: progress, from: at(done), to: at(done + area(strip.sheet.size)) };
                 done += area(strip.sheet.size);
                 let views = strip.views(&job.target.views);
                 let (geometry, warnings) = Geometry::compile(job, (&views, true), bytes, &share)?;
-                bytes += geometry.bytes();
+                bytes += with_reserve(geometry.bytes());
                 strips.push((strip.rows, Arc::new(geometry)));
                 told.extend(warnings.into_iter().filter(|warning| !told.contains(warning)).collect::<Vec<_>>());
             }
@@ -58,8 +59,8 @@ impl KeptStrips {
 
     /// Returns the geometry of a strip, if it is kept.
     fn of(&self, strip: &Strip) -> Option<Arc<Geometry>> {
-        let kept = self.files.get(strip.file)?.get(strip.rows.start / STRIP);
-        kept.filter(|(rows, _)| *rows == strip.rows).map(|(_, geometry)| Arc::clone(geometry))
+        let kept = self.files.get(strip.file)?.iter().find(|(rows, _)| *rows == strip.rows)?;
+        Some(Arc::clone(&kept.1))
     }
 
     fn all(&self) -> impl Iterator<Item = &Geometry> {
@@ -71,9 +72,9 @@ impl KeptStrips {
         self.all().map(Geometry::kept).sum()
     }
 
-    /// Returns the bytes that it holds.
+    /// Returns the bytes that it holds, with what the allocator keeps beside them.
     pub(super) fn bytes(&self) -> u64 {
-        self.all().map(Geometry::bytes).sum()
+        self.all().map(|geometry| with_reserve(geometry.bytes())).sum()
     }
 }
 
@@ -117,13 +118,27 @@ impl Engine<'_> {
         let mut make = |rows: Range<usize>| {
             let share = Share { whole: whole.progress, from: at(done), to: at(done + rows.len()) };
             done += rows.len();
-            let made = self.strip(&Whole { progress: &share, ..*whole }, &Strip::of(&self.job.target, *file, rows));
+            let made = self.rows(&Whole { progress: &share, ..*whole }, *file, rows);
             made.map_err(|error: ConvertError| failed = Some(error)).ok()
         };
         let origin = self.job.origin_of(whole.frame.frame)?.map(Arc::from);
         let words = FrameWords { place: whole.layer.place, carried: whole.light.carried(), origin };
         let written = self.writer().save_rows(words, path, (size, STRIP), &mut make);
         failed.map_or(written, Err)
+    }
+
+    /// Makes the samples of rows of a file. Where some lack texels, or a view, neighbours decide what becomes of them; so a margin is made,
+    /// too.
+    fn rows(&self, whole: &Whole, file: usize, rows: Range<usize>) -> Result<EncodedImage> {
+        let (width, height) = self.job.target.files[file].sheet.size;
+        let has_margin = self.job.strips_have_margins() || !self.is_complete(whole.light);
+        let made = with_margin(rows.clone(), height, has_margin);
+        let image = self.strip(whole, &Strip::of(&self.job.target, file, made.clone()))?;
+        if made == rows {
+            return Ok(image);
+        }
+        let alpha_mode = image.alpha_mode();
+        Ok(image.cropped((0, rows.start - made.start), (width, rows.len())).with_alpha_mode(alpha_mode))
     }
 
     /// Makes the samples of a strip.
@@ -168,6 +183,13 @@ impl Engine<'_> {
     }
 }
 
+/// Returns rows with those beside them on which they depend: pixels around one that is filled, and those around these, which tell where
+/// the world ends.
+fn with_margin(rows: Range<usize>, height: usize, is_needed: bool) -> Range<usize> {
+    let margin = if is_needed { 2 } else { 0 };
+    rows.start.saturating_sub(margin)..height.min(rows.end + margin)
+}
+
 fn area((width, height): (usize, usize)) -> usize {
     width * height
 }
@@ -197,16 +219,16 @@ mod tests {
         cosmorama_io::write(path("sky.png"), &sky, &WriteOptions::default()).unwrap();
         let progress = &|_: f64| ControlFlow::Continue(());
         for (sky, to, size, output) in [
-            ("sky.exr", "fulldome:tilt=10", "200x1100", "dome.png"),
-            ("sky.exr", "fulldome", "200x1100", "dome.exr"),
-            ("sky.exr", "perspective:fov=70,yaw=20,pitch=30,roll=5", "200x1100", "view.tif"),
-            ("sky.exr", "omnimax", "200x1100", "frame.hdr"),
-            ("sky.exr", "cube", "520", "face_{face}.png"),
-            ("sky.png", "cube:layout=cross-v", "300", "cross.png"),
-            ("sky.png", "fulldome:tilt=10", "200x1100", "codes.png"),
-            ("sky.png", "fulldome", "200x1100", "upright.png"),
-            ("sky.png", "equirect", "200x1100", "panorama.jpg"),
-            ("sky.png", "equirect:stereo=tb,yaw=30,pitch=20", "200x1100", "eyes.tga"),
+            ("sky.exr", "fulldome:tilt=10", "64x1100", "dome.png"),
+            ("sky.exr", "fulldome", "64x1100", "dome.exr"),
+            ("sky.exr", "perspective:fov=70,yaw=20,pitch=30,roll=5", "64x1100", "view.tif"),
+            ("sky.exr", "omnimax", "64x1100", "frame.hdr"),
+            ("sky.exr", "cube", "100", "face_{face}.png"),
+            ("sky.png", "cube:layout=cross-v", "150", "cross.png"),
+            ("sky.png", "fulldome:tilt=10", "64x1100", "codes.png"),
+            ("sky.png", "fulldome", "64x1100", "upright.png"),
+            ("sky.png", "equirect", "64x1100", "panorama.jpg"),
+            ("sky.png", "equirect:stereo=tb,yaw=30,pitch=20", "64x1100", "eyes.tga"),
         ] {
             let conversion = Conversion::new(path(sky), path(output)).to(to.parse().unwrap());
             let conversion = conversion.from("equirect".parse().unwrap());
@@ -233,8 +255,8 @@ mod tests {
                 let (mut steps, mut others, of) = (0.0f32, 0, picture.samples().len());
                 for top in (0..picture.height()).step_by(STRIP) {
                     let rows = top..picture.height().min(top + STRIP);
-                    let strip = Strip::of(&job.target, file, rows.clone());
-                    let (made, again) = (engine.strip(&whole, &strip).unwrap(), keeping.strip(&whole, &strip).unwrap());
+                    let (made, again) =
+                        [&engine, &keeping].map(|engine| engine.rows(&whole, file, rows.clone()).unwrap()).into();
                     assert!(made.samples() == again.samples(), "{to}: with and without kept geometry");
                     assert_eq!((form(&made), made.height()), (form(&picture), rows.len()), "{to}");
                     let part = picture.cropped((0, rows.start), (picture.width(), rows.len()));
@@ -271,7 +293,7 @@ mod tests {
             let input =
                 if has_backdrop { ("front.exr", "perspective:fov=80,pitch=20") } else { ("sky.exr", "equirect") };
             let conversion = Conversion::new(path(input.0), path("view_#.exr")).from(input.1.parse().unwrap());
-            let conversion = conversion.to("fulldome:tilt=30".parse().unwrap()).size("90x1100".parse().unwrap());
+            let conversion = conversion.to("fulldome:tilt=30".parse().unwrap()).size("70x530".parse().unwrap());
             let mut conversion = conversion.moved(turn).frames(FrameList::new(vec![1, 2, 3]));
             conversion.depth = Some(Depth::Float);
             let shutter = Shutter::centred(0.8);
@@ -295,7 +317,7 @@ mod tests {
             let whole = Whole { frame, light: &light, layer: &layer, moments: moments.as_deref(), progress };
             for top in (0..picture.height()).step_by(STRIP) {
                 let rows = top..picture.height().min(top + STRIP);
-                let made = engine.strip(&whole, &Strip::of(&job.target, 0, rows.clone())).unwrap();
+                let made = engine.rows(&whole, 0, rows.clone()).unwrap();
                 let part = picture.cropped((0, rows.start), (picture.width(), rows.len()));
                 let (Samples::Float(made), Samples::Float(part)) = (made.samples(), part.samples()) else {
                     panic!("no floats")
@@ -303,8 +325,9 @@ mod tests {
                 let farthest = made.iter().zip(part).map(|(made, part)| (made - part).abs()).fold(0.0, f32::max);
                 let most = if blur == Some(BlurMethod::Swept) { 1e-3 } else { 4e-6 };
                 assert!(farthest <= most, "{blur:?}, backdrop {has_backdrop}, row {top}: {farthest}");
-                assert!(made.iter().any(|sample| *sample > 0.5), "{blur:?}, backdrop {has_backdrop}, row {top}");
             }
+            let Samples::Float(samples) = picture.samples() else { panic!("no floats") };
+            assert!(samples.iter().any(|sample| *sample > 0.5), "{blur:?}, backdrop {has_backdrop}");
         }
     }
 

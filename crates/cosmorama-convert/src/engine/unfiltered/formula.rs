@@ -126,25 +126,30 @@ mod tests {
     fn strips_of_a_formula_are_its_picture() {
         let folder = tempfile::tempdir().unwrap();
         for name in ["grid", "checker", "directions", "zone-plate", "demo"] {
-            for to in ["fulldome:tilt=20,yaw=10", "cube:layout=cross-h"] {
+            for to in ["fulldome:tilt=20,yaw=10", "cube:layout=cross-h,yaw=13,pitch=7"] {
                 let output = folder.path().join("picture.exr").display().to_string();
                 let conversion = Conversion::new(format!("builtin:{name}"), output).to(to.parse().unwrap());
-                let conversion = conversion.size("600".parse().unwrap()).existing(Existing::Replace);
+                let conversion = conversion.size("120".parse().unwrap()).existing(Existing::Replace);
                 let checked = conversion.check().result.unwrap_or_else(|error| panic!("{name}: {error}"));
                 let (job, world) = (&checked.job, checked.job.formula().unwrap());
-                let whole = &job.target.files[0].sheet;
-                let picture = sheet(job, world, (whole, &job.target.views), &[]).unwrap();
-                for top in (0..picture.height()).step_by(250) {
-                    let rows = top..picture.height().min(top + 250);
+                let (whole, views) = (&job.target.files[0].sheet, &job.target.views[..]);
+                let picture = sheet(job, world, (whole, views), &[]).unwrap();
+                let (mut others, mut farthest) = (0, 0.0f32);
+                for top in (0..picture.height()).step_by(50) {
+                    let rows = top..picture.height().min(top + 50);
                     let strip = Strip::of(&job.target, 0, rows.clone());
-                    let made = sheet(job, world, (&strip.sheet, &strip.views(&job.target.views)), &[]).unwrap();
+                    let made = sheet(job, world, (&strip.sheet, &strip.views(views)), &[]).unwrap();
                     assert_eq!((made.width(), made.height()), (picture.width(), rows.len()));
                     let part = &picture.pixels()[rows.start * picture.width()..rows.end * picture.width()];
-                    let far =
-                        |(a, b): (&Rgba, &Rgba)| a.0.iter().zip(b.0).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
-                    let farthest = made.pixels().iter().zip(part).map(far).fold(0.0, f32::max);
-                    assert!(farthest <= 4e-6, "{name} as {to}, row {top}: {farthest}");
+                    let distance = |(a, b): (&Rgba, &Rgba)| (0..4).map(|k| (a.0[k] - b.0[k]).abs()).fold(0.0, f32::max);
+                    for distance in made.pixels().iter().zip(part).map(distance) {
+                        others += usize::from(distance > 4e-6);
+                        farthest = farthest.max(distance);
+                    }
                 }
+                // Where a sample lies on an edge, its last digit decides; a pixel there has hundreds of samples.
+                let most = picture.pixels().len() / 1000;
+                assert!(others <= most && farthest < 0.02, "{name} as {to}: {others} pixels, up to {farthest}");
             }
         }
     }

@@ -173,16 +173,24 @@ impl Survey<'_> {
     }
 
     /// Adds a block if it is not hidden. A block at the edge of the picture or of a view is divided into its smallest
-    /// parts.
+    /// parts. One that no view is near is not: there may be millions of them.
     fn judge(&self, block: Block, into: &mut Vec<Judged>) {
         if block.is_hidden(self.target) {
             return;
         }
         let judged = self.judged(block);
         match block.parts() {
-            Some(parts) if judged.rank < 2 || !judged.is_inside => parts.for_each(|part| self.judge(part, into)),
+            Some(parts) if (judged.rank < 2 || !judged.is_inside) && !self.is_far(&judged) => {
+                parts.for_each(|part| self.judge(part, into))
+            }
             _ => into.push(judged),
         }
+    }
+
+    /// Returns whether no view is near enough to be seen or read by a block.
+    fn is_far(&self, judged: &Judged) -> bool {
+        let kernel = self.filter.reaching_kernel();
+        judged.cap.is_some_and(|cap| cap.read_texels(self.world, &kernel).next().is_none())
     }
 
     pub(crate) fn judged(&self, block: Block) -> Judged {
