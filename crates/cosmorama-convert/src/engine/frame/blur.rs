@@ -238,7 +238,7 @@ impl Engine<'_> {
     }
 }
 
-/// What is made of a frame at once.
+/// Part of a frame that is made at once.
 #[derive(Clone, Copy)]
 pub(super) struct FramePart<'a> {
     pub(super) frame: &'a FrameOutputs,

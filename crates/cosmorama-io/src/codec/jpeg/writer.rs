@@ -55,7 +55,7 @@ fn codes(image: &EncodedImage) -> io::Result<&[u8]> {
 struct Pixels<'a, 'f, P> {
     size: (u32, u32),
     made: RefCell<Made<'a>>,
-    /// What ended the making. All pixels after it are black, and the file takes no more.
+    /// Error that ended the making. All pixels after it are black, and the file takes no more.
     failed: &'f RefCell<Option<io::Error>>,
     /// Makes a pixel of its codes.
     pixel: fn(&[u8]) -> P,
@@ -118,7 +118,7 @@ struct Spliced<'o, 'f> {
     start: Vec<u8>,
     /// Metadata; `None` when they are written.
     beside: Option<Vec<u8>>,
-    /// What ended the picture: the file takes no more.
+    /// Error that ended the picture: the file takes no more.
     failed: &'f RefCell<Option<io::Error>>,
 }
 
