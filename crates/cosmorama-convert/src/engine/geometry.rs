@@ -43,6 +43,15 @@ fn anew() -> Diagnostic {
     Diagnostic::warning(Code::PlanAnew, message)
 }
 
+/// Returns the warning that the geometry of some strips, of all, does not fit into memory.
+pub(super) fn partly_anew(kept: usize, all: usize) -> Diagnostic {
+    let message = format!(
+        "there is memory enough for the geometry of {kept} of {all} strips: that of the others is computed anew for each frame; give more with \
+         {MEMORY}"
+    );
+    Diagnostic::warning(Code::PlanAnew, message)
+}
+
 impl Geometry {
     /// Compiles the geometry of a job's views in one pose, and returns it with its warnings. It is kept by plans where that
     /// pays: if the pose `is_repeated`, or serves further channels. So many bytes are `taken` by other geometry.

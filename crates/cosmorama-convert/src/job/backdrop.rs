@@ -153,7 +153,8 @@ impl FoundBackdrop {
         let backdrop = match further {
             None => None,
             Some(found) => {
-                let own = memory.beside_frame(FrameNeeds::of(&input, &[], front.target, Held::any()).of_many());
+                let needs = FrameNeeds::of(&input, &[], front.target, Held::any()).of_many().least(front.target);
+                let own = memory.beside_frame(needs);
                 let job = found.resolve(&Front { memory: own, ..*front }, warnings)?;
                 let (job, left) = job.share(memory);
                 memory = left;
@@ -184,6 +185,7 @@ impl FoundBackdrop {
             content,
             backdrop,
             is_behind: true,
+            is_behind_whole: false,
             opacity: settings.opacity,
             missing,
             memory,
@@ -234,12 +236,16 @@ fn frames_before(input: &Input, rule: FrameMap) -> Vec<Option<u64>> {
 }
 
 impl ConvertJob {
-    /// Takes the light of the conversion whose input lies before this one.
-    pub(crate) fn lie_behind(mut self, front: &Light) -> Self {
+    /// Takes the light of the conversion whose input lies before this one, and checks that memory suffices if the pictures of that are held
+    /// whole.
+    pub(crate) fn lie_behind(mut self, front: &Light, is_by_strips: bool) -> Result<Self> {
         self.light.working = front.working.clone();
         (self.light.channels, self.light.background) = (Channels::Rgba, Rgba::TRANSPARENT);
-        self.backdrop = self.backdrop.map(|further| Box::new(further.lie_behind(front)));
-        self
+        self.is_behind_whole = !is_by_strips;
+        self.memory.check_frame(self.frame_needs(), &self.input, &self.target)?;
+        let further = self.backdrop.take().map(|further| further.lie_behind(front, is_by_strips));
+        self.backdrop = further.transpose()?.map(Box::new);
+        Ok(self)
     }
 
     /// Returns the files of a frame, of the backdrop, too.

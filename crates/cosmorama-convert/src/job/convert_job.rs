@@ -66,6 +66,8 @@ pub(crate) struct ConvertJob {
     pub(crate) backdrop: Option<Box<ConvertJob>>,
     /// Whether it is itself behind another.
     pub(super) is_behind: bool,
+    /// Whether it is behind one whose pictures are held whole.
+    pub(super) is_behind_whole: bool,
     /// Factor of the input's light and its alpha.
     pub(crate) opacity: f32,
     /// Requested treatment of directions without light.
@@ -92,6 +94,24 @@ const LIGHT: Format = Format::Exr;
 
 /// Part of the memory, at most, that a picture decoded beforehand takes.
 pub(super) const DECODED_PART: u64 = 8;
+
+fn is_balanced(filter: &FilterSettings) -> bool {
+    filter.kind == FilterKind::Ewa && filter.kernel == Kernel::LIGHT && !filter.anti_ringing
+}
+
+/// Returns whether pictures are too large to be held, and can be made without all of them.
+fn may_be_by_strips(
+    (target, content): (&Target, Content),
+    filter: &FilterSettings,
+    (layers, is_lit): (&LayerPlan, bool),
+) -> bool {
+    let is_local = match content {
+        Content::World => filter.kind == FilterKind::Ewa && !is_balanced(filter),
+        Content::Formula(_) => true,
+        Content::StMap | Content::Directions(_) => false,
+    };
+    is_large(target) && is_local && layers.is_plain() && !is_lit && !target.format.is_video()
+}
 
 /// Returns the source of a conversion's files, which knows the parts and channels to read.
 fn chosen(settings: &Conversion, content: Content) -> Arc<dyn Files> {
@@ -194,23 +214,25 @@ impl ConvertJob {
             Some(found) => {
                 let frames = &input.frames[..];
                 let (movement, filter) = (movement.as_ref(), filter);
-                let own = memory.beside_frame(FrameNeeds::of(&input, &[], &target, Held::any()).of_many());
+                let needs = FrameNeeds::of(&input, &[], &target, Held::any()).of_many().least(&target);
+                let own = memory.beside_frame(needs);
                 let job = found.resolve(&Front { frames, target: &target, movement, filter, memory: own }, warnings)?;
                 Some(job)
             }
         };
         let behind = backdrop.as_ref().map(|job| &job.light);
         let mut light = Light::resolve(settings, &input, &target, behind, warnings)?;
-        let backdrop = backdrop.map(|job| {
-            let (job, left) = job.lie_behind(&light).share(memory);
-            memory = left;
-            Box::new(job)
-        });
         let layers = if content == Content::World && settings.light.is_none() {
             LayerPlan::resolve(settings, (&input, &target, &light), &mut filter, warnings)?
         } else {
             LayerPlan::default()
         };
+        let is_by_strips = may_be_by_strips((&target, content), &filter, (&layers, lighting.is_some()));
+        let backdrop = backdrop.map(|job| job.lie_behind(&light, is_by_strips)).transpose()?.map(|job| {
+            let (job, left) = job.share(memory);
+            memory = left;
+            Box::new(job)
+        });
         if content == Content::World && (settings.light.is_some() || purpose == Purpose::Light) {
             check_light(&input, "this needs")?;
         }
@@ -250,6 +272,7 @@ impl ConvertJob {
             content,
             backdrop,
             is_behind: false,
+            is_behind_whole: false,
             opacity: settings.opacity,
             missing,
             memory,
@@ -370,17 +393,8 @@ impl ConvertJob {
     pub(crate) fn is_by_strips(&self) -> bool {
         // Integers are samples, which are held for a format that is written as a whole.
         let is_of_use = self.target.format.takes_rows() || self.fixed_codec().is_none();
-        is_of_use
-            && is_large(&self.target)
-            && !self.target.format.is_video()
-            && self.lighting.is_none()
-            && self.layers.is_plain()
-            && match self.content {
-                Content::World => self.filter.kind == FilterKind::Ewa && !self.is_balance_asked_for(),
-                Content::Formula(_) => true,
-                Content::StMap | Content::Directions(_) => false,
-            }
-            && self.backdrop.as_ref().is_none_or(|behind| behind.is_by_strips())
+        let (target, layers) = ((&self.target, self.content), (&self.layers, self.lighting.is_some()));
+        is_of_use && !self.is_behind_whole && may_be_by_strips(target, &self.filter, layers)
     }
 
     /// Returns whether pixels of a strip depend on those beside it, whatever the light: where views end, neighbours decide what becomes of
@@ -429,7 +443,7 @@ impl ConvertJob {
     /// Returns whether the filter should keep light and can be balanced: `--kernel light` without anti-ringing, whose
     /// weights depend on the light.
     pub(crate) fn is_balance_asked_for(&self) -> bool {
-        self.filter.kind == FilterKind::Ewa && self.filter.kernel == Kernel::LIGHT && !self.filter.anti_ringing
+        is_balanced(&self.filter)
     }
 
     /// Returns the rows of its only view, a video, from which all frames are made; `None` where others may be looked at, too.

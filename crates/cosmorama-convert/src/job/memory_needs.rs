@@ -189,15 +189,23 @@ impl FrameNeeds {
         let samples = if self.encoded == 0 { self.pictures } else { self.encoded };
         let largest = sizes.iter().copied().map(area).max().unwrap_or(0);
         let written = if format.takes_rows() { strip(samples) } else { (samples / all).saturating_mul(largest) };
+        // OpenEXR sorts those that it writes by channel.
+        let sorted = if format == Format::Exr { strip(samples) } else { 0 };
         let light = strip(self.pictures);
         Self {
-            pictures: written.saturating_add(strip(samples)),
+            pictures: sum([written, strip(samples), sorted]),
             piece: light + light.min(self.piece),
             encoded: 0,
             masks: if self.masks == 0 { 0 } else { strip(all.saturating_mul(2 * MASK)) },
             is_by_strips: true,
             ..self
         }
+    }
+
+    /// Returns the least needs of a target's pictures: by strips, where these are large.
+    pub(crate) fn least(self, target: &Target) -> Self {
+        let sizes: Vec<(usize, usize)> = target.files.iter().map(|file| file.sheet.size).collect();
+        if is_large(target) { self.by_strips(target.format, &sizes) } else { self }
     }
 
     /// Returns the bytes that a frame takes at once, at most, without those of the program. Samples of a single frame are freed as
@@ -272,11 +280,7 @@ impl ConvertJob {
         let views = self.target.views.iter().map(|target| (target.view.width(), target.view.height()));
         let needs = if has_bands { needs.with_bands(self.input.texels() as u64, views.clone()) } else { needs };
         let needs = if self.has_masks() { needs.with_masks(views) } else { needs };
-        if !self.is_by_strips() {
-            return needs;
-        }
-        let sizes: Vec<(usize, usize)> = self.target.files.iter().map(|file| file.sheet.size).collect();
-        needs.by_strips(self.target.format, &sizes)
+        if self.is_by_strips() { needs.least(&self.target) } else { needs }
     }
 
     /// Returns whether masks of its views are made: of what no view of the input covers, or of what lies outside the field of view.

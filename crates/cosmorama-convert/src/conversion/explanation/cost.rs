@@ -124,12 +124,16 @@ impl Explanation {
         }
     }
 
-    /// Returns the sizes of the files of a frame. Pictures that have places lie in one.
+    /// Returns the sizes of the files of a frame. Pictures that have places fill as few as hold them.
     fn file_sizes(&self) -> Vec<(usize, usize)> {
         let size = |picture: &Picture| (picture.view.width(), picture.view.height());
         let sheet =
             self.pictures().iter().find_map(|picture| picture.place.filter(|place| !place.is_whole(size(picture))));
-        sheet.map_or_else(|| self.pictures().iter().map(size).collect(), |place| vec![place.of])
+        let all = || self.pictures().iter().map(|picture| area(size(picture))).fold(0, u64::saturating_add);
+        sheet.map_or_else(
+            || self.pictures().iter().map(size).collect(),
+            |place| vec![place.of; all().div_ceil(area(place.of).max(1)) as usize],
+        )
     }
 
     /// Returns the input with those views that a picture needs.

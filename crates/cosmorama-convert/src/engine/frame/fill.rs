@@ -65,9 +65,11 @@ impl Engine<'_> {
                 |(view, count): (&InputView, usize)| format!("{} ({count})", view.files.path(frame).display());
             let culprits: Vec<_> = self.incomplete(light).map(culprit).collect();
             bail!(
-                NotANumber: "in {}, {} nothing but missing pixels (NaN), found in {}; render those again, or fill the \
+                NotANumber: "in {}, {}{} nothing but missing pixels (NaN), found in {}; render those again, or fill the \
                  gaps with {MISSING} COLOR or {MISSING} transparent",
                 posed.views[index].name,
+                // Of a strip.
+                if self.job.is_by_strips() { "at least " } else { "" },
                 counted(empty, "sees", "see"),
                 culprits.join(", ")
             );

@@ -5,13 +5,14 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use cosmorama::motion::Moment;
-use cosmorama::raster::{EncodedImage, Threads};
+use cosmorama::raster::{EncodedImage, Image, Pixel, Threads};
 use cosmorama::render::{Progress, Share, Stopped};
 use cosmorama_io::pending::Hidden;
 
 use super::blur::FramePart;
 use super::pictures::{Engine, Layer, Making};
 use crate::diagnostic::{ConvertError, Diagnostic, Result, failure};
+use crate::engine::geometry::partly_anew;
 use crate::engine::{BalancedLight, FrameLight, FrameWords, Geometry, Levels, Posed, Shares};
 use crate::job::{ConvertJob, FrameOutputs, STRIP, with_reserve};
 use crate::target::{Strip, TargetFile};
@@ -43,7 +44,8 @@ impl KeptStrips {
             for top in (0..sheet.size.1).step_by(STRIP) {
                 let rows = with_margin(top..sheet.size.1.min(top + STRIP), sheet.size.1, job.strips_have_margins());
                 let strip = Strip::of(&job.target, file, rows);
-                let at = |done: usize| done as f64 / pixels as f64;
+                // Margins are made twice.
+                let at = |done: usize| (done as f64 / pixels as f64).min(1.0);
                 let share = Share { whole: progress, from: at(done), to: at(done + area(strip.sheet.size)) };
                 done += area(strip.sheet.size);
                 let views = strip.views(&job.target.views);
@@ -53,6 +55,10 @@ impl KeptStrips {
                 told.extend(warnings.into_iter().filter(|warning| !told.contains(warning)).collect::<Vec<_>>());
             }
             kept.files.push(strips);
+        }
+        if !told.is_empty() && kept.kept() > 0 {
+            let all = kept.files.iter().map(Vec::len).sum();
+            told = vec![partly_anew(kept.kept(), all)];
         }
         Ok((kept, told))
     }
@@ -130,39 +136,51 @@ impl Engine<'_> {
     /// Makes the samples of rows of a file. Where some lack texels, or a view, neighbours decide what becomes of them; so a margin is made,
     /// too.
     fn rows(&self, whole: &Whole, file: usize, rows: Range<usize>) -> Result<EncodedImage> {
-        let (width, height) = self.job.target.files[file].sheet.size;
+        let (_, height) = self.job.target.files[file].sheet.size;
         let has_margin = self.job.strips_have_margins() || !self.is_complete(whole.light);
         let made = with_margin(rows.clone(), height, has_margin);
-        let image = self.strip(whole, &Strip::of(&self.job.target, file, made.clone()))?;
-        if made == rows {
-            return Ok(image);
-        }
-        let alpha_mode = image.alpha_mode();
-        Ok(image.cropped((0, rows.start - made.start), (width, rows.len())).with_alpha_mode(alpha_mode))
+        let strip = Strip::of(&self.job.target, file, made.clone());
+        let wanted = rows.start - made.start..rows.end - made.start;
+        let encoded = match self.strip(whole, &strip)? {
+            Some(Levels::Light(mut made)) => {
+                made.pop().map(|image| self.writer().encode(self.rows_of(image, wanted), Threads::All))
+            }
+            Some(Levels::Codes(mut made)) => {
+                made.pop().map(|image| EncodedImage::of_codes(self.rows_of(image, wanted)))
+            }
+            Some(Levels::Written(_) | Levels::Layered { .. }) | None => None,
+        };
+        encoded.ok_or_else(|| failure!("a strip has no picture"))
     }
 
-    /// Makes the samples of a strip.
-    fn strip(&self, whole: &Whole, strip: &Strip) -> Result<EncodedImage> {
+    /// Makes the light, or the codes, of a strip.
+    fn strip(&self, whole: &Whole, strip: &Strip) -> Result<Option<Levels>> {
         let &Whole { frame, light, moments, progress, .. } = whole;
-        let made = match moments {
+        match moments {
             Some(moments) => {
                 let part = FramePart { frame, strip: Some(strip) };
-                self.render_blurred(part, (light, moments), progress)?.pop()
+                Ok(self.render_blurred(part, (light, moments), progress)?.pop())
             }
             None => {
                 let layer = self.layer_of_strip(whole.layer, strip)?;
                 let views = strip.views(&self.job.target.views);
                 let all = views.iter().map(|target| &target.view).cycle().take(views.len() * self.layers());
                 let making = &mut Making { layer, shares: Shares::new(progress, all) };
-                Some(self.render_sheets(&[&strip.sheet], (frame.frame, light), making)?)
+                Ok(Some(self.render_sheets(&[&strip.sheet], (frame.frame, light), making)?))
             }
-        };
-        let encoded = match made {
-            Some(Levels::Light(mut made)) => made.pop().map(|image| self.writer().encode(image, Threads::All)),
-            Some(Levels::Codes(mut made)) => made.pop().map(EncodedImage::of_codes),
-            Some(Levels::Written(_) | Levels::Layered { .. }) | None => None,
-        };
-        encoded.ok_or_else(|| failure!("a strip has no picture"))
+        }
+    }
+
+    /// Returns rows of an image, whose memory goes back to the pool.
+    fn rows_of<P: Pixel>(&self, image: Image<P>, rows: Range<usize>) -> Image<P> {
+        if rows.len() == image.height() {
+            return image;
+        }
+        let width = image.width();
+        let mut part = self.pool.take_image(width, rows.len());
+        part.pixels_mut().copy_from_slice(&image.pixels()[rows.start * width..rows.end * width]);
+        self.pool.give_image(image);
+        part
     }
 
     /// Returns the geometry of a strip, and of what lies behind it, in the pose of the whole.
@@ -186,7 +204,7 @@ impl Engine<'_> {
 /// Returns rows with those beside them on which they depend: pixels around one that is filled, and those around these, which tell where
 /// the world ends.
 fn with_margin(rows: Range<usize>, height: usize, is_needed: bool) -> Range<usize> {
-    let margin = if is_needed { 2 } else { 0 };
+    let margin = if is_needed { 3 } else { 0 };
     rows.start.saturating_sub(margin)..height.min(rows.end + margin)
 }
 
@@ -198,11 +216,10 @@ fn area((width, height): (usize, usize)) -> usize {
 mod tests {
     use cosmorama::motion::{Easing, Ramp, Shutter};
     use cosmorama::raster::{Channels, Depth, FramePool, Samples};
-    use cosmorama_io::{FrameList, WriteOptions};
+    use cosmorama_io::{FrameList, Limits, WriteOptions};
 
     use super::*;
-    use crate::conversion::Checked;
-    use crate::engine::{FrameFile, Spent, Texels, ViewImage, Which, WriterOptions};
+    use crate::engine::{FrameFile, Spent, Stages, Texels, ViewImage, Which, WriterOptions};
     use crate::settings::{Backdrop, BlurMethod, CameraMovement, Conversion, Existing, MotionBlur};
 
     /// Compares pictures of three strips, whose last is not whole, with those that are made at once.
@@ -241,7 +258,7 @@ mod tests {
             assert!(told.is_empty() && kept.bytes() > 0, "{to}: {told:?}");
             keeping.strips = kept;
             let frame = &job.outputs.frames[0];
-            let light = light_of(&checked, &engine, frame);
+            let light = light_of((&checked.job, &checked.stages), &engine, frame);
             assert_eq!(matches!(light.texels(), Texels::Fixed(_)), sky == "sky.png", "{to}");
             let layer = engine.layer(frame, progress).unwrap();
             let whole = Whole { frame, light: &light, layer: &layer, moments: None, progress };
@@ -266,9 +283,12 @@ mod tests {
                 assert!(steps <= 1.0, "{to}: {steps} steps");
                 assert!(others <= of / 1000, "{to}: {others} codes of {of} are others");
                 engine.file_by_strips(&whole, &frame.files[file]).unwrap().appear().unwrap();
-                let file = cosmorama_io::probe(&frame.files[file].1).unwrap();
-                let form = (file.width, file.height, file.channels, file.depth);
-                assert_eq!(form, (picture.width(), picture.height(), picture.channels(), picture.depth()), "{to}");
+                let read = cosmorama_io::read(&frame.files[file].1, &Limits::default()).unwrap().image;
+                assert_eq!(form(&read).0, form(&picture).0, "{to}");
+                assert_eq!((read.height(), read.depth()), (picture.height(), picture.depth()), "{to}");
+                if !output.ends_with(".jpg") && !output.ends_with(".hdr") {
+                    assert!(steps_between(read.samples(), picture.samples()) <= 1.0, "{to}");
+                }
             }
         }
     }
@@ -278,7 +298,7 @@ mod tests {
     fn strips_are_the_picture_that_a_moving_camera_takes() {
         let folder = tempfile::tempdir().unwrap();
         let path = |name: &str| folder.path().join(name).display().to_string();
-        let smooth = |sample: usize| (sample as f32 * 0.013).sin() * 0.5 + 0.5;
+        let smooth = |sample: usize| ((sample % 480) as f32 / 240.0 - 1.0).abs();
         let samples = Samples::Float((0..128 * 64 * 3).map(smooth).collect());
         let sky = EncodedImage::new(128, 64, Channels::Rgb, Depth::Float, samples).unwrap();
         cosmorama_io::write(path("sky.exr"), &sky, &WriteOptions::default()).unwrap();
@@ -306,7 +326,7 @@ mod tests {
             let job = &checked.job;
             let engine = Engine::new(job, WriterOptions::default(), progress).unwrap_or_else(|_| panic!("stopped"));
             let frame = &job.outputs.frames[1];
-            let light = light_of(&checked, &engine, frame);
+            let light = light_of((&checked.job, &checked.stages), &engine, frame);
             let moments = engine.blur_of(frame).unwrap();
             assert_eq!(moments.is_some(), blur.is_some());
             let Some(Levels::Light(mut picture)) = engine.render(frame, &light, progress).unwrap().pop() else {
@@ -331,13 +351,50 @@ mod tests {
         }
     }
 
+    /// Compares strips whose border is an edge of what the input shows, or lies among missing texels, with their picture.
+    #[test]
+    fn strips_know_what_lies_beside_them() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name).display().to_string();
+        // Two rows around the equator are missing, and a third far from it.
+        let texel = |at: usize| if [31, 32, 50].contains(&(at / (128 * 3))) { f32::NAN } else { (at % 7) as f32 / 7.0 };
+        let samples = Samples::Float((0..128 * 64 * 3).map(texel).collect());
+        let holes = EncodedImage::new(128, 64, Channels::Rgb, Depth::Float, samples).unwrap();
+        cosmorama_io::write(path("holes.exr"), &holes, &WriteOptions::default()).unwrap();
+        let half = holes.cropped((0, 0), (128, 30));
+        cosmorama_io::write(path("half.exr"), &half, &WriteOptions::default()).unwrap();
+        let progress = &|_: f64| ControlFlow::Continue(());
+        for (input, from) in [("holes.exr", "equirect"), ("half.exr", "cylinder:hfov=360,vfov=20,pitch=10.05")] {
+            let conversion = Conversion::new(path(input), path("picture.exr")).from(from.parse().unwrap());
+            let conversion = conversion.to("equirect".parse().unwrap()).size("64x1024".parse().unwrap());
+            let conversion = conversion.missing("red".parse().unwrap()).existing(Existing::Replace);
+            let checked = conversion.check().result.unwrap();
+            let engine =
+                Engine::new(&checked.job, WriterOptions::default(), progress).unwrap_or_else(|_| panic!("stopped"));
+            let frame = &checked.job.outputs.frames[0];
+            let light = light_of((&checked.job, &checked.stages), &engine, frame);
+            let Some(Levels::Light(mut picture)) = engine.render(frame, &light, progress).unwrap().pop() else {
+                panic!("no light")
+            };
+            let picture = engine.writer().encode(picture.remove(0), Threads::All);
+            let layer = engine.layer(frame, progress).unwrap();
+            let whole = Whole { frame, light: &light, layer: &layer, moments: None, progress };
+            for rows in [0..512, 512..1024] {
+                let made = engine.rows(&whole, 0, rows.clone()).unwrap();
+                let part = picture.cropped((0, rows.start), (64, rows.len()));
+                let steps = steps_between(made.samples(), part.samples());
+                assert!(steps <= 1.0, "{input}, rows {rows:?}: {steps} steps");
+            }
+        }
+    }
+
     /// Reads the light of a frame.
-    fn light_of(checked: &Checked, engine: &Engine, frame: &FrameOutputs) -> FrameLight {
-        let (job, pool) = (&checked.job, FramePool::default());
+    fn light_of((job, stages): (&ConvertJob, &Stages), engine: &Engine, frame: &FrameOutputs) -> FrameLight {
+        let pool = FramePool::default();
         let files = FrameFile::all(job, frame.frame, Which::All).into_iter();
         let mut images: Vec<ViewImage> = files.flat_map(|file| file.read(job, &pool).unwrap()).collect();
         let mut light = engine.frame_light();
-        light.fill(job, frame.frame, (&mut images, Spent::Freed), (&checked.stages, &pool)).unwrap();
+        light.fill(job, frame.frame, (&mut images, Spent::Freed), (stages, &pool)).unwrap();
         light
     }
 
@@ -351,6 +408,9 @@ mod tests {
         for name in ["sky.png", "sky_1.png", "sky_2.png"] {
             cosmorama_io::write(path(name), &sky, &WriteOptions::default()).unwrap();
         }
+        let front =
+            EncodedImage::new(64, 32, Channels::Rgba, Depth::Eight, Samples::U8(vec![90; 64 * 32 * 4])).unwrap();
+        cosmorama_io::write(path("front.png"), &front, &WriteOptions::default()).unwrap();
         for (input, to, output, depth, memory, is_enough) in [
             ("sky.png", "fulldome:tilt=20", "dome.png", Depth::Eight, "150M", true),
             ("sky.png", "fulldome:tilt=20", "dome.png", Depth::Sixteen, "350M", true),
@@ -369,11 +429,14 @@ mod tests {
             ("sky_#.png", "fulldome:tilt=20", "dome_#.png", Depth::Sixteen, "150M", false),
             ("sky_#.png", "fulldome:tilt=20", "dome_#.jpg", Depth::Eight, "150M", true),
             ("sky_#.png", "cube", "face_#_{face}.png", Depth::Eight, "150M", true),
+            ("front.png", "fulldome:tilt=20", "before.png", Depth::Eight, "900M", true),
+            ("front.png", "fulldome:tilt=20", "before.png", Depth::Eight, "300M", false),
         ] {
             let conversion = Conversion::new(path(input), path(output)).to(to.parse().unwrap());
             let conversion = conversion.from("equirect".parse().unwrap()).size("16384".parse().unwrap()).threads(2);
-            let depth = Some(depth);
-            let checked = Conversion { depth, ..conversion }.memory(memory.parse().unwrap()).check().result;
+            let behind = Backdrop { from: Some("equirect".parse().unwrap()), ..Backdrop::new(path("sky.png")) };
+            let (depth, backdrop) = (Some(depth), (input == "front.png").then_some(behind));
+            let checked = Conversion { depth, backdrop, ..conversion }.memory(memory.parse().unwrap()).check().result;
             let told = checked.as_ref().err().map(ToString::to_string).unwrap_or_default();
             assert_eq!(checked.is_ok(), is_enough, "{input} → {output} in {memory}: {told}");
             assert_eq!(told.contains("needs about"), !is_enough, "{told}");

@@ -103,6 +103,7 @@ impl Made<'_> {
         let (width, height) = self.rows.size;
         let count = (self.rows.at_once / SQUARE).max(1) * SQUARE;
         (self.top, self.bottom) = (self.bottom, height.min(self.bottom + count));
+        self.codes = Vec::new();
         let made = self.rows.part(self.top..self.bottom).and_then(|part| codes(&part).map(<[u8]>::to_vec));
         let black = || vec![0; (self.bottom - self.top) * width * self.rows.channels.count()];
         let (codes, failed) = made.map_or_else(|error| (black(), Err(error)), |codes| (codes, Ok(())));
