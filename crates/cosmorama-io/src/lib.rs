@@ -50,8 +50,8 @@ pub use codec::{Compression, ReadSeek, WriteOptions, is_contained};
 pub use error::{IoError, is_video};
 pub use face_set::{FaceFile, FaceImages, FacePattern, FacePlacement, FaceSet, LetterCase, Naming};
 pub use file::{
-    StPairs, open, probe, probe_chosen, probe_from, probe_pairs, probe_pairs_from, read, read_chosen, read_from,
-    read_in, read_layers, read_pairs, read_pairs_from, write, write_flat, write_hidden, write_layers,
+    StPairs, check_chosen, open, probe, probe_chosen, probe_from, probe_pairs, probe_pairs_from, read, read_chosen,
+    read_from, read_in, read_layers, read_pairs, read_pairs_from, write, write_flat, write_hidden, write_layers,
     write_layers_hidden, write_levels, write_planes, write_rows_hidden, write_to,
 };
 pub use header::{Choice, Format, Header, ImageFile, LayeredImage, MadeRows, Plane, PlaneSamples};

@@ -1,15 +1,14 @@
 use std::path::{Path, PathBuf};
 
-use cosmorama::raster::FramePool;
-use cosmorama_io::{Choice, Format, IoError, Limits, Metadata, open, probe_chosen, read_chosen};
+use cosmorama_io::{Choice, Format, IoError, Limits, Metadata, check_chosen, open, probe_chosen};
 use rayon::prelude::*;
 
 use crate::colour::{LayerPlan, Light};
-use crate::diagnostic::{Code, ConvertError, Diagnostic, OVERWRITE, RESUME, Result, failed_as};
+use crate::diagnostic::{Code, ConvertError, Diagnostic, MEMORY, OVERWRITE, RESUME, Result, failed_as, failure};
 use crate::job::origin::{are_of_one_version, differences};
 use crate::job::{ConvertJob, FrameOutputs};
-use crate::source::Stamp;
 use crate::source::video::FrameName;
+use crate::source::{MemoryBudget, Stamp};
 use crate::target::TargetFile;
 
 /// An output whose place holds something else than `--resume` expects.
@@ -42,6 +41,8 @@ enum Found {
     Other(String),
     /// A whole picture by other settings, or from other inputs; the parts in which these differ.
     Otherwise(Vec<String>),
+    /// Error of a picture that does not fit into memory.
+    TooLarge(IoError),
 }
 
 /// Expectation of an output.
@@ -52,6 +53,7 @@ struct Expected<'a> {
     layers: &'a LayerPlan,
     /// Words about how the frame is made.
     origin: Option<&'a str>,
+    memory: MemoryBudget,
 }
 
 impl Resumed {
@@ -85,7 +87,13 @@ impl Resumed {
         let (light, layers) = (&job.light, &job.layers);
         let (mut found, mut left) = (Self::default(), Vec::new());
         for (index, path) in std::mem::take(&mut frame.files) {
-            let expected = Expected { target: &job.target.files[index], light, layers, origin: origin.as_deref() };
+            let expected = Expected {
+                target: &job.target.files[index],
+                light,
+                layers,
+                origin: origin.as_deref(),
+                memory: job.memory,
+            };
             match Found::at(&path, expected) {
                 Found::Nothing => left.push((index, path)),
                 Found::Complete { tells_how: false } => match newer_input(job, frame.frame, &path) {
@@ -102,6 +110,12 @@ impl Resumed {
                     left.push((index, path));
                 }
                 Found::Otherwise(parts) => return Err(otherwise(&path, &parts)),
+                Found::TooLarge(error) => {
+                    let advice = format!(
+                        "to see whether it is whole for {RESUME}, raise {MEMORY}; or make all again with {OVERWRITE}"
+                    );
+                    return Err(failure!(Memory: "{error}; {advice}"));
+                }
             }
         }
         frame.files = left;
@@ -141,7 +155,7 @@ impl Found {
     /// Examines the place of an output. Outputs appear whole, so a readable image of the right size and kind is
     /// complete.
     fn at(path: &Path, expected: Expected<'_>) -> Self {
-        let Expected { target, light, layers, .. } = expected;
+        let Expected { target, light, layers, memory, .. } = expected;
         let Ok(found) = path.metadata() else { return Self::Nothing };
         // Reading something other than a file, such as a pipe, might wait for ever.
         if !found.is_file() {
@@ -172,10 +186,10 @@ impl Found {
             return Self::Other(told.join(", "));
         }
         let bytes = light.file_bytes(target.sheet.size).saturating_add(layers.file_bytes(target.sheet.size));
-        let limits = Limits::memory(bytes);
-        let pool = FramePool::default();
-        match open(path).and_then(|file| read_chosen(file, path, (&limits, &pool), &choice)) {
-            Ok(_) => Self::Complete { tells_how: Self::tells_how(&header.metadata, expected) },
+        let limits = Limits::memory(bytes.min(memory.bytes));
+        match open(path).and_then(|file| check_chosen(file, path, &limits, &choice)) {
+            Ok(()) => Self::Complete { tells_how: Self::tells_how(&header.metadata, expected) },
+            Err(error @ IoError::TooLarge { .. }) => Self::TooLarge(error),
             Err(error) => Self::unreadable(error),
         }
     }

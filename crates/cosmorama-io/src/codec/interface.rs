@@ -130,6 +130,11 @@ pub(crate) trait Codec: Sync {
         self.decode(path, source, limits, pool)
     }
 
+    /// Reads a file to its end, and drops its pixels. Codecs that cannot drop them row by row need memory for all.
+    fn check_chosen(&self, path: &Path, source: Source<'_>, limits: &Limits, choice: &Choice) -> Result<(), IoError> {
+        self.decode_chosen(path, source, (limits, &FramePool::default()), choice).map(drop)
+    }
+
     /// Reads named channels beside the picture that a choice selects; formats without names have none.
     fn decode_planes(
         &self,

@@ -137,6 +137,21 @@ pub fn read_chosen(
         .upright(memory.1))
 }
 
+/// Reads a file to its end like [`read_chosen`], and drops its pixels: those of PNG row by row, so that they take no memory.
+///
+/// # Errors
+/// When [`read_chosen`] fails; of PNG not because it is large.
+pub fn check_chosen(
+    mut source: impl BufRead + Seek,
+    name: impl AsRef<Path>,
+    limits: &Limits,
+    choice: &Choice,
+) -> Result<(), IoError> {
+    let name = name.as_ref();
+    let format = recognise(name, &mut source)?;
+    decoded(name, format, || codec(name, format)?.check_chosen(name, &mut source, limits, choice))
+}
+
 /// Reads channels by their full names, each in its own sample type, from the part whose picture a choice selects. Their
 /// size is that of the picture.
 ///

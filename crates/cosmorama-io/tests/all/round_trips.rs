@@ -3,11 +3,12 @@
 use std::io::Cursor;
 
 use crate::common::picture;
-use cosmorama::raster::{Channels, Depth, EncodedImage, Samples, Transfer};
+use cosmorama::raster::{Channels, Depth, EncodedImage, FramePool, Samples, Transfer};
 use cosmorama_io::{
-    EnvMap, Format, Limits, Metadata, Remark, Window, WriteOptions, probe, probe_from, read, read_from, write,
-    write_levels, write_planes, write_to,
+    Choice, EnvMap, Format, IoError, Limits, Metadata, Remark, Window, WriteOptions, check_chosen, probe, probe_from,
+    read, read_chosen, read_from, write, write_levels, write_planes, write_to,
 };
+use half::f16;
 
 const EXTENSIONS: [(Format, &str); 6] = [
     (Format::Png, "png"),
@@ -433,4 +434,46 @@ fn two_channels_of_one_name_are_not_written() {
     let planes = vec![("u", vec![0.0; 4]), ("v", vec![1.0; 4]), ("u", vec![2.0; 4])];
     let error = write_planes(&path, (2, 2), planes, Depth::Float, &WriteOptions::default()).unwrap_err();
     assert!(error.to_string().contains("two channels are called u") && !path.exists(), "{error}");
+}
+
+#[test]
+fn a_check_finds_what_reading_finds() {
+    let folder = tempfile::tempdir().unwrap();
+    let choice = Choice::default();
+    for (name, depth) in [
+        ("a.png", Depth::Eight),
+        ("b.png", Depth::Sixteen),
+        ("a.tif", Depth::Eight),
+        ("a.exr", Depth::Half),
+        ("a.hdr", Depth::Float),
+        ("a.jpg", Depth::Eight),
+        ("a.tga", Depth::Eight),
+    ] {
+        let path = folder.path().join(name);
+        let samples = match depth {
+            Depth::Eight => Samples::U8((0..40 * 30 * 3).map(|at| (at * 7 % 250) as u8).collect()),
+            Depth::Sixteen => Samples::U16((0..40 * 30 * 3).map(|at| (at * 977) as u16).collect()),
+            Depth::Half => Samples::Half((0..40 * 30 * 3).map(|at| f16::from_f32((at % 7) as f32)).collect()),
+            _ => Samples::Float((0..40 * 30 * 3).map(|at| (at % 7) as f32).collect()),
+        };
+        let image = EncodedImage::new(40, 30, Channels::Rgb, depth, samples).unwrap();
+        write(&path, &image, &WriteOptions::default()).unwrap();
+        let bytes = std::fs::read(&path).unwrap();
+        let check =
+            |bytes: &[u8], memory: u64| check_chosen(Cursor::new(bytes), name, &Limits::memory(memory), &choice);
+        let read =
+            |bytes: &[u8]| read_chosen(Cursor::new(bytes), name, (&Limits::default(), &FramePool::default()), &choice);
+        check(&bytes, 1 << 20).unwrap();
+        let without_memory = check(&bytes, 1);
+        assert_eq!(without_memory.is_ok(), name.ends_with(".png"), "{name}");
+        assert!(without_memory.err().is_none_or(|error| matches!(error, IoError::TooLarge { .. })), "{name}");
+        for kept in (0..bytes.len()).step_by(1 + bytes.len() / 97) {
+            assert_eq!(check(&bytes[..kept], 1 << 20).is_ok(), read(&bytes[..kept]).is_ok(), "{name} of {kept} bytes");
+        }
+        for at in (0..bytes.len()).step_by(1 + bytes.len() / 211) {
+            let mut changed = bytes.clone();
+            changed[at] ^= 0x55;
+            assert_eq!(check(&changed, 1 << 20).is_ok(), read(&changed).is_ok(), "{name}, byte {at}");
+        }
+    }
 }

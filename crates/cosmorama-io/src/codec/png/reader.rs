@@ -33,10 +33,7 @@ pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits, pool: &Fram
     let found = carried::read(&mut *source).map_err(|error| IoError::open(path, error))?;
     let mut reader = decoder(path, &mut *source)?;
     let header = header(&reader, found);
-    let frames = reader.info().animation_control().map_or(1, |animation| animation.num_frames as usize);
-    if frames > 1 {
-        return Err(IoError::several(path, FORMAT, frames, "frames of an animation"));
-    }
+    check_frames(path, &reader)?;
     let size = (header.width as u64, header.height as u64);
     limits.check(path, size, header.channels, header.depth)?;
     let count = header.width * header.height * header.channels.count();
@@ -55,11 +52,33 @@ pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits, pool: &Fram
     };
     let samples = if colour::is_narrow(reader.info()) { full_range(samples, header.channels) } else { samples };
     drop(reader);
+    check_behind(path, source)?;
+    whole_image(path, header, samples)
+}
+
+/// Reads a file to its end, and drops its pixels row by row.
+pub(crate) fn check(path: &Path, source: Source<'_>) -> Result<(), IoError> {
+    let mut reader = decoder(path, &mut *source)?;
+    check_frames(path, &reader)?;
+    while reader.next_row().map_err(|error| damaged(path, &error))?.is_some() {}
+    reader.finish().map_err(|error| damaged(path, &error))?;
+    drop(reader);
+    check_behind(path, source)
+}
+
+/// Refuses an animation.
+fn check_frames(path: &Path, reader: &Reader<Source<'_>>) -> Result<(), IoError> {
+    let frames = reader.info().animation_control().map_or(1, |animation| animation.num_frames as usize);
+    if frames > 1 { Err(IoError::several(path, FORMAT, frames, "frames of an animation")) } else { Ok(()) }
+}
+
+/// Refuses pictures behind the one that has been read.
+fn check_behind(path: &Path, source: Source<'_>) -> Result<(), IoError> {
     let behind = count_behind(source).map_err(|error| IoError::open(path, error))?;
     if behind > 0 {
         return Err(IoError::several(path, FORMAT, 1 + behind, "pictures one behind the other"));
     }
-    whole_image(path, header, samples)
+    Ok(())
 }
 
 /// Stretches code values of narrow range (ITU-R BT.2100-2, table 9) to full range. Alpha always has full range.
