@@ -462,7 +462,7 @@ fn a_check_finds_what_reading_finds() {
         let check =
             |bytes: &[u8], memory: u64| check_chosen(Cursor::new(bytes), name, &Limits::memory(memory), &choice);
         let read =
-            |bytes: &[u8]| read_chosen(Cursor::new(bytes), name, (&Limits::default(), &FramePool::default()), &choice);
+            |bytes: &[u8]| read_chosen(Cursor::new(bytes), name, (&Limits::memory(1 << 20), &FramePool::default()), &choice);
         check(&bytes, 1 << 20).unwrap();
         let without_memory = check(&bytes, 1);
         assert_eq!(without_memory.is_ok(), name.ends_with(".png"), "{name}");
