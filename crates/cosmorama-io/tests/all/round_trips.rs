@@ -461,8 +461,9 @@ fn a_check_finds_what_reading_finds() {
         let bytes = std::fs::read(&path).unwrap();
         let check =
             |bytes: &[u8], memory: u64| check_chosen(Cursor::new(bytes), name, &Limits::memory(memory), &choice);
-        let read =
-            |bytes: &[u8]| read_chosen(Cursor::new(bytes), name, (&Limits::memory(1 << 20), &FramePool::default()), &choice);
+        let read = |bytes: &[u8]| {
+            read_chosen(Cursor::new(bytes), name, (&Limits::memory(1 << 20), &FramePool::default()), &choice)
+        };
         check(&bytes, 1 << 20).unwrap();
         let without_memory = check(&bytes, 1);
         assert_eq!(without_memory.is_ok(), name.ends_with(".png"), "{name}");
