@@ -29,9 +29,9 @@ impl MadeRows<'_> {
     ) -> Result<(), E> {
         let (at_once, end) = (self.at_once.max(1), rows.end);
         let part = |top: usize| top..end.min(top + at_once);
-        let (mut top, mut made) = (rows.start, None);
+        let (mut top, mut made): (usize, Option<io::Result<EncodedImage>>) = (rows.start, None);
         while top < end {
-            let here = made.take().map_or_else(|| self.part(part(top)), |made: io::Result<EncodedImage>| made)?;
+            let here = made.take().unwrap_or_else(|| self.part(part(top)))?;
             top += at_once;
             rayon::in_place_scope(|scope| {
                 if top < end {
