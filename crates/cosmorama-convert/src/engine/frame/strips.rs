@@ -413,10 +413,10 @@ mod tests {
         cosmorama_io::write(path("front.png"), &front, &WriteOptions::default()).unwrap();
         for (input, to, output, depth, memory, is_enough) in [
             ("sky.png", "fulldome:tilt=20", "dome.png", Depth::Eight, "150M", true),
-            ("sky.png", "fulldome:tilt=20", "dome.png", Depth::Sixteen, "350M", true),
+            ("sky.png", "fulldome:tilt=20", "dome.png", Depth::Sixteen, "300M", true),
             ("sky.png", "fulldome:tilt=20", "dome.png", Depth::Sixteen, "150M", false),
             ("sky.png", "fulldome:tilt=20", "dome.exr", Depth::Half, "350M", true),
-            ("sky.png", "fulldome:tilt=20", "dome.tif", Depth::Sixteen, "350M", true),
+            ("sky.png", "fulldome:tilt=20", "dome.tif", Depth::Sixteen, "300M", true),
             ("sky.png", "fulldome:tilt=20", "dome.tif", Depth::Sixteen, "150M", false),
             ("sky.png", "fulldome:tilt=20", "dome.hdr", Depth::Float, "400M", true),
             ("sky.png", "fulldome:tilt=20", "dome.jpg", Depth::Eight, "150M", true),
