@@ -51,10 +51,13 @@ pub use error::{IoError, is_video};
 pub use face_set::{FaceFile, FaceImages, FacePattern, FacePlacement, FaceSet, LetterCase, Naming};
 pub use file::{
     StPairs, check_chosen, open, probe, probe_chosen, probe_from, probe_pairs, probe_pairs_from, read, read_chosen,
-    read_from, read_in, read_layers, read_pairs, read_pairs_from, write, write_flat, write_hidden, write_layers,
-    write_layers_hidden, write_levels, write_planes, write_rows_hidden, write_to,
+    read_from, read_in, read_layers, read_pairs, read_pairs_from, write, write_flat, write_hidden,
+    write_layer_rows_hidden, write_layers, write_layers_hidden, write_levels, write_planes, write_rows_hidden,
+    write_to,
 };
-pub use header::{Choice, Format, Header, ImageFile, LayeredImage, MadeRows, Plane, PlaneSamples};
+pub use header::{
+    Choice, Format, Header, ImageFile, LayeredImage, LayeredRows, MadeLayers, MadeRows, Plane, PlaneSamples,
+};
 pub use limits::Limits;
 pub use metadata::{
     Attribute, Carried, EnvMap, Exif, FilePart, Kept, Layers, Metadata, MetadataRoom, NamedChannel, Pose, ProfileFault,

@@ -17,7 +17,8 @@ pub fn power(world: &World, light: &[Rgba]) -> [f64; 3] {
 pub struct Sky {
     world: World,
     plans: Vec<Plan>,
-    balance: Option<LightBalance>,
+    /// Balance, with the factors of each plan's pixels.
+    balance: Option<(LightBalance, Vec<Vec<f32>>)>,
 }
 
 impl Sky {
@@ -35,16 +36,18 @@ impl Sky {
     pub fn balanced(from: &World, to: &Form, filter: FilterSettings) -> Self {
         let sky = Self::new(from, to, filter);
         let targets: Vec<_> = sky.plans.iter().zip(&to.views).collect();
-        Self { balance: Some(LightBalance::new(from, &targets)), ..sky }
+        let balance = LightBalance::new(from, &targets);
+        let pixels = sky.plans.iter().map(|plan| balance.pixels(plan)).collect();
+        Self { balance: Some((balance, pixels)), ..sky }
     }
 
     /// Computes the light in the new form.
     pub fn light(&self, from: &[Rgba]) -> Vec<Rgba> {
-        let balanced = self.balance.as_ref().map(|balance| balance.balanced(from));
+        let balanced = self.balance.as_ref().map(|(balance, _)| balance.balanced(from));
         let from = balanced.as_deref().unwrap_or(from);
         let picture = |(index, plan): (usize, &Plan)| {
             let mut picture = plan.apply(from);
-            self.balance.iter().for_each(|balance| balance.complete(index, &mut picture));
+            self.balance.iter().for_each(|(_, pixels)| LightBalance::complete(&pixels[index], &mut picture));
             picture.pixels().iter().map(whole).collect::<Vec<_>>()
         };
         self.plans.iter().enumerate().flat_map(picture).collect()

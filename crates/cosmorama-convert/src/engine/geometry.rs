@@ -5,8 +5,8 @@ use cosmorama::render::{Arithmetic, Plan, Progress, Stopped, Watched};
 use crate::colour::LayerContent;
 use crate::diagnostic::{Code, Diagnostic, KERNEL, MEMORY};
 use crate::engine::{Balance, BalancedLight, Shares, balance};
-use crate::job::ConvertJob;
-use crate::target::TargetView;
+use crate::job::{ConvertJob, STRIP};
+use crate::target::{Strip, TargetView};
 
 /// Light of a world in a frame.
 #[derive(Clone, Copy)]
@@ -25,6 +25,8 @@ pub(crate) struct Geometry {
     arithmetic: Arithmetic,
     /// Energy balance.
     balance: Balance,
+    /// Bytes that balanced pictures keep free for the plan of a strip.
+    strip: u64,
 }
 
 fn unbalanced() -> Diagnostic {
@@ -65,14 +67,17 @@ impl Geometry {
         let arithmetic = arithmetic(job);
         if job.lighting.is_some() || job.formula().is_some() {
             let plans = views.iter().map(|_| None).collect();
-            return Ok((Self { plans, arithmetic, balance: Balance::of((job, views), Vec::new(), &[]) }, warnings));
+            return Ok((Self { plans, arithmetic, balance: Balance::default(), strip: 0 }, warnings));
         }
         let groups = balance::groups(job, views);
+        if job.is_by_strips() {
+            return Self::by_strips((job, views), groups, progress);
+        }
         // Balanced pictures need their plan, even if there is only one.
         let is_kept = is_repeated || has_passes(job) || !groups.is_empty();
         let plans = if is_kept {
-            let taken = taken.saturating_add(balance::bytes_of((job, views), &groups));
-            plans((job, views, is_repeated), (arithmetic, taken), progress, &mut warnings)?
+            let taken = taken.saturating_add(balance::bytes_of((job, views), &groups, usize::MAX));
+            plans((job, views, is_repeated), (arithmetic, left_for_plans(job, taken)), progress, &mut warnings)?
         } else {
             views.iter().map(|_| None).collect()
         };
@@ -80,7 +85,53 @@ impl Geometry {
             warnings.push(unbalanced());
         }
         let balance = Balance::of((job, views), groups, &plans);
-        Ok((Self { plans, arithmetic, balance }, warnings))
+        Ok((Self { plans, arithmetic, balance, strip: 0 }, warnings))
+    }
+
+    /// Computes the balance of pictures that are made strip by strip, if there is room for it and for the plan of a strip.
+    fn by_strips(
+        (job, views): (&ConvertJob, &[TargetView]),
+        groups: Vec<Vec<usize>>,
+        progress: &dyn Progress,
+    ) -> Result<(Self, Vec<Diagnostic>), Stopped> {
+        let (plans, arithmetic) = (views.iter().map(|_| None).collect(), arithmetic(job));
+        let mut geometry = Self { plans, arithmetic, balance: Balance::default(), strip: 0 };
+        if groups.is_empty() {
+            return Ok((geometry, Vec::new()));
+        }
+        let strip = strip_bytes(job, views);
+        if left_for_plans(job, balance::bytes_of((job, views), &groups, STRIP)) < strip {
+            return Ok((geometry, vec![unbalanced()]));
+        }
+        (geometry.balance, geometry.strip) = (Balance::by_strips((job, views), groups, progress)?, strip);
+        Ok((geometry, Vec::new()))
+    }
+
+    /// Compiles the geometry of a strip's views in the pose of the whole, like [`Geometry::compile`].
+    pub(crate) fn of_strip(
+        (job, whole): (&ConvertJob, &Self),
+        (strip, views, is_repeated): (&Strip, &[TargetView], bool),
+        taken: u64,
+        progress: &dyn Progress,
+    ) -> Result<(Self, Vec<Diagnostic>), Stopped> {
+        let (mut warnings, arithmetic) = (Vec::new(), arithmetic(job));
+        let is_balanced = !whole.balance.is_empty();
+        let plans = if is_balanced && !is_repeated {
+            // There is room for it, and strips without it would stand out.
+            plans((job, views, false), (arithmetic, u64::MAX), progress, &mut warnings)?
+        } else if job.formula().is_none() && (is_repeated || has_passes(job)) {
+            let left = left_for_plans(job, taken.saturating_add(whole.bytes()));
+            plans((job, views, is_repeated), (arithmetic, left), progress, &mut warnings)?
+        } else {
+            views.iter().map(|_| None).collect()
+        };
+        let balance = whole.balance.of_strip(strip, &plans);
+        Ok((Self { plans, arithmetic, balance, strip: 0 }, warnings))
+    }
+
+    /// Returns whether each of its views has a plan.
+    pub(crate) fn is_whole(&self) -> bool {
+        self.plans.iter().all(Option::is_some)
     }
 
     /// Returns the number of plans that are kept.
@@ -90,7 +141,7 @@ impl Geometry {
 
     /// Returns the bytes that it holds.
     pub(crate) fn bytes(&self) -> u64 {
-        self.plans.iter().flatten().map(|plan| plan.bytes() as u64).sum::<u64>() + self.balance.bytes()
+        self.plans.iter().flatten().map(|plan| plan.bytes() as u64).sum::<u64>() + self.balance.bytes() + self.strip
     }
 
     fn plan(&self, index: usize, arithmetic: Arithmetic) -> Option<&Plan> {
@@ -176,16 +227,40 @@ fn has_passes(job: &ConvertJob) -> bool {
     filtered + usize::from(!layers.leaves_picture_out()) > 1
 }
 
-/// Makes the plans of all target views, as far as they fit into memory beside what is `taken`.
+/// Returns the bytes of the balance of pictures that are made strip by strip, with the plan of a strip.
+pub(super) fn balance_bytes(job: &ConvertJob) -> u64 {
+    let views = &job.target.views[..];
+    let groups = balance::groups(job, views);
+    let strip = if groups.is_empty() { 0 } else { strip_bytes(job, views) };
+    balance::bytes_of((job, views), &groups, STRIP).saturating_add(strip)
+}
+
+/// Returns the bytes of the plan of a strip, with which further channels are filtered.
+pub(super) fn bytes_of_passes(job: &ConvertJob) -> u64 {
+    if has_passes(job) { strip_bytes(job, &job.target.views).min(left_for_plans(job, 0)) } else { 0 }
+}
+
+/// Returns the bytes that are left for plans beside what is `taken`.
+fn left_for_plans(job: &ConvertJob, taken: u64) -> u64 {
+    job.memory.left_for_plan(job.frame_needs(), rayon::current_num_threads()).saturating_sub(taken)
+}
+
+/// Returns the bytes of the largest plan of a strip, with the target's views in some pose.
+fn strip_bytes(job: &ConvertJob, views: &[TargetView]) -> u64 {
+    let plan = |target: &TargetView| job.resampler(target).plan_bytes_estimate(Arithmetic::Float) as u64;
+    let bytes = |strip: Strip| strip.views(views).iter().map(plan).sum();
+    Strip::all(&job.target, STRIP).map(bytes).max().unwrap_or(0)
+}
+
+/// Makes the plans of all target views, as far as they fit into the bytes that are `left`.
 fn plans(
     (job, views, is_repeated): (&ConvertJob, &[TargetView], bool),
-    (arithmetic, taken): (Arithmetic, u64),
+    (arithmetic, mut left): (Arithmetic, u64),
     progress: &dyn Progress,
     warnings: &mut Vec<Diagnostic>,
 ) -> Result<Vec<Option<Plan>>, Stopped> {
     let mut shares = Shares::new(progress, views.iter().map(|target| &target.view));
-    let left = job.memory.left_for_plan(job.frame_needs(), rayon::current_num_threads());
-    let (mut left, mut lacks_room) = (left.saturating_sub(taken), false);
+    let mut lacks_room = false;
     let plan_of = |target: &TargetView| {
         let (resampler, share) = (job.resampler(target), shares.next(&target.view));
         if resampler.plan_bytes_estimate(arithmetic) as u64 > left {
@@ -221,7 +296,8 @@ mod tests {
         let dome = Dome::new(64);
         let plan = dome.resampler().plan(Arithmetic::Fixed).expect("a plan");
         let expected = plan.apply_fixed(&dome.light, &dome.codec);
-        let geometry = Geometry { plans: vec![Some(plan)], arithmetic: Arithmetic::Fixed, balance: Balance::default() };
+        let geometry =
+            Geometry { plans: vec![Some(plan)], arithmetic: Arithmetic::Fixed, balance: Balance::default(), strip: 0 };
         let watched = || dome.resampler().watched(&|_: f64| ControlFlow::Continue(()));
         let codes = |pool: &FramePool| geometry.codes(0, watched(), (&dome.light, &dome.codec), pool).expect("pixels");
         let pool = FramePool::keeping(1 << 20);
@@ -236,7 +312,8 @@ mod tests {
         let texels: Vec<Rgba> = (0..dome.world.texel_count()).map(|texel| dome.light.rgba(texel)).collect();
         let plan = dome.resampler().plan(Arithmetic::Float).expect("a plan");
         let expected = plan.apply_over(&texels, Rgba::BLACK);
-        let geometry = Geometry { plans: vec![Some(plan)], arithmetic: Arithmetic::Float, balance: Balance::default() };
+        let geometry =
+            Geometry { plans: vec![Some(plan)], arithmetic: Arithmetic::Float, balance: Balance::default(), strip: 0 };
         let left = pool.take_image::<Rgba>(64, 64);
         let place = left.pixels().as_ptr();
         pool.give_image(left);

@@ -20,7 +20,7 @@ pub(crate) use frame::files::{FrameFile, ViewImage, Which};
 pub(crate) use frame::light::{Counts, FrameLight, Spent, Texels};
 pub(crate) use frame::pictures::Engine;
 pub(crate) use geometry::{Geometry, WorldLight};
-pub(crate) use layers::LayerPass;
+pub(crate) use layers::{FurtherFiles, LayerPass};
 pub(crate) use lighting::balance::{self, Balance, BalancedLight};
 pub(crate) use lighting::light_maps::{LightMaps, light_of_unseen};
 pub(crate) use posed::Posed;

@@ -6,10 +6,11 @@ use std::sync::{Arc, OnceLock};
 use cosmorama::raster::{Depth, EncodedImage, Encoder, Image, Rgba, Threads};
 use cosmorama_io::pending::Hidden;
 use cosmorama_io::{
-    Carried, LayeredImage, MadeRows, Plane, Remark, WriteOptions, write_hidden, write_layers_hidden, write_rows_hidden,
+    Carried, LayeredImage, LayeredRows, MadeLayers, MadeRows, Plane, Remark, WriteOptions, write_hidden,
+    write_layer_rows_hidden, write_layers_hidden, write_rows_hidden,
 };
 
-use crate::colour::{Light, LightConversion, PictureNames};
+use crate::colour::{LayerPlan, Light, LightConversion, PictureNames};
 use crate::diagnostic::Result;
 use crate::source::video::MadeVideos;
 
@@ -133,6 +134,23 @@ impl Writer {
         let (channels, depth, alpha_mode) = (self.encoder.channels(), self.encoder.depth(), self.encoder.alpha_mode());
         let rows = MadeRows { size, channels, depth, alpha_mode, at_once, make };
         Ok(write_rows_hidden(path, rows, &self.options_of(words))?)
+    }
+
+    /// Writes a picture with further channels, like [`save_rows`](Self::save_rows).
+    pub(crate) fn save_layer_rows(
+        &self,
+        words: FrameWords,
+        path: &Path,
+        (size, at_once): ((usize, usize), usize),
+        layers: &LayerPlan,
+        make: &mut (dyn FnMut(Range<usize>) -> Option<LayeredRows> + Send),
+    ) -> Result<Hidden> {
+        let form = (self.encoder.channels(), self.encoder.depth());
+        let picture = (!layers.leaves_picture_out()).then_some(form);
+        let further = layers.groups.iter().flat_map(|group| &group.channels);
+        let planes = further.map(|channel| (channel.name.clone(), channel.kind)).collect();
+        let made = MadeLayers { size, picture, names: self.names.clone(), planes, at_once, make };
+        Ok(write_layer_rows_hidden(path, made, &self.options_of(words))?)
     }
 
     /// Returns the options of a file, with what its own frame says.

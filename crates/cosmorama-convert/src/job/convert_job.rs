@@ -3,7 +3,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use cosmorama::camera::View;
-use cosmorama::filter::{Filter, FilterKind, FilterSettings, Kernel};
+use cosmorama::filter::{Classic, Filter, FilterKind, FilterSettings, Kernel};
 use cosmorama::lighting::PreparedLight;
 use cosmorama::motion::{Exposure, Moment, Pose};
 use cosmorama::raster::{Channels, Depth, FixedCodec, FixedDecoder, Rgba, Transfer};
@@ -99,18 +99,15 @@ fn is_balanced(filter: &FilterSettings) -> bool {
     filter.kind == FilterKind::Ewa && filter.kernel == Kernel::LIGHT && !filter.anti_ringing
 }
 
-/// Returns whether pictures are too large to be held, and can be made without all of them.
-fn may_be_by_strips(
-    (target, content): (&Target, Content),
-    filter: &FilterSettings,
-    (layers, is_lit): (&LayerPlan, bool),
-) -> bool {
+/// Returns whether pictures are made without all of them: those that are too large to be held, and maps, each of whose pixels stands for
+/// itself. The passes of two-pass run through whole columns, and maps of light are measured when they are made.
+fn may_be_by_strips((target, content): (&Target, Content), filter: &FilterSettings, is_lit: bool) -> bool {
     let is_local = match content {
-        Content::World => filter.kind == FilterKind::Ewa && !is_balanced(filter),
+        Content::World => filter.kind != FilterKind::Classic(Classic::TwoPass),
         Content::Formula(_) => true,
-        Content::StMap | Content::Directions(_) => false,
+        Content::StMap | Content::Directions(_) => return true,
     };
-    is_large(target) && is_local && layers.is_plain() && !is_lit && !target.format.is_video()
+    is_large(target) && is_local && !is_lit && !target.format.is_video()
 }
 
 /// Returns the source of a conversion's files, which knows the parts and channels to read.
@@ -227,7 +224,8 @@ impl ConvertJob {
         } else {
             LayerPlan::default()
         };
-        let is_by_strips = may_be_by_strips((&target, content), &filter, (&layers, lighting.is_some()));
+        let is_balanced = is_balanced(&filter) && geometry.blur.is_some();
+        let is_by_strips = !is_balanced && may_be_by_strips((&target, content), &filter, lighting.is_some());
         let backdrop = backdrop.map(|job| job.lie_behind(&light, is_by_strips)).transpose()?.map(|job| {
             let (job, left) = job.share(memory);
             memory = left;
@@ -346,11 +344,11 @@ impl ConvertJob {
             filter.check(world).map_err(|error| usage(format!("{FILTER}: {error}")))?;
         }
         self.memory.check_frame(self.frame_needs(), &self.input, &self.target)?;
-        let prepared = self.target.views.iter().map(|target| self.resampler(target).filter_bytes() as u64);
-        self.prepared = prepared.max().unwrap_or(0).max(self.table_bytes());
+        self.prepared = self.filter_bytes().max(self.table_bytes());
         let needs = self.frame_needs();
         self.memory.check_prepared(needs)?;
-        self.memory = self.memory.beside_channels(&mut self.layers, needs, (&self.input, &self.target))?;
+        let made = self.pixels_made();
+        self.memory = self.memory.beside_channels(&mut self.layers, needs, (self.input.texels() as u64, made))?;
         Ok(())
     }
 
@@ -388,13 +386,16 @@ impl ConvertJob {
         self.content.formula()
     }
 
-    /// Returns whether the pictures of a frame are too large to be held: they are encoded strip by strip. Not where all of a picture must be
-    /// there: to balance its light, by filters of several passes, and with further channels.
+    /// Returns whether the pictures of a frame are encoded strip by strip, because they are too large to be held. Not where all of a picture
+    /// must be there.
     pub(crate) fn is_by_strips(&self) -> bool {
         // Integers are samples, which are held for a format that is written as a whole.
         let is_of_use = self.target.format.takes_rows() || self.fixed_codec().is_none();
-        let (target, layers) = ((&self.target, self.content), (&self.layers, self.lighting.is_some()));
-        is_of_use && !self.is_behind_whole && may_be_by_strips(target, &self.filter, layers)
+        // Each moment would have a balance of its own.
+        let is_blurred = self.movement.as_ref().is_some_and(|movement| movement.blur.is_some());
+        let can_be = !(is_blurred && self.is_balance_asked_for());
+        let target = (&self.target, self.content);
+        is_of_use && can_be && !self.is_behind_whole && may_be_by_strips(target, &self.filter, self.lighting.is_some())
     }
 
     /// Returns whether pixels of a strip depend on those beside it, whatever the light: where views end, neighbours decide what becomes of

@@ -17,7 +17,7 @@ use crate::input::{Input, InputView};
 use crate::job::{Content, ConvertJob, FrameMemory, QueueDepth};
 use crate::source::MemoryBudget;
 use crate::source::memory_budget::{area, human, read_bytes};
-use crate::target::{Sheet, Target};
+use crate::target::{Sheet, Strip, Target, TargetView};
 
 /// Bytes in which a job holds a texel of light, a pixel of a picture, and a pixel of its file's samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -204,8 +204,12 @@ impl FrameNeeds {
 
     /// Returns the least needs of a target's pictures: by strips, where these are large.
     pub(crate) fn least(self, target: &Target) -> Self {
+        if is_large(target) { self.by_strips_of(target) } else { self }
+    }
+
+    fn by_strips_of(self, target: &Target) -> Self {
         let sizes: Vec<(usize, usize)> = target.files.iter().map(|file| file.sheet.size).collect();
-        if is_large(target) { self.by_strips(target.format, &sizes) } else { self }
+        self.by_strips(target.format, &sizes)
     }
 
     /// Returns the bytes that a frame takes at once, at most, without those of the program. Samples of a single frame are freed as
@@ -280,7 +284,7 @@ impl ConvertJob {
         let views = self.target.views.iter().map(|target| (target.view.width(), target.view.height()));
         let needs = if has_bands { needs.with_bands(self.input.texels() as u64, views.clone()) } else { needs };
         let needs = if self.has_masks() { needs.with_masks(views) } else { needs };
-        if self.is_by_strips() { needs.least(&self.target) } else { needs }
+        if self.is_by_strips() { needs.by_strips_of(&self.target) } else { needs }
     }
 
     /// Returns whether masks of its views are made: of what no view of the input covers, or of what lies outside the field of view.
@@ -289,12 +293,28 @@ impl ConvertJob {
         self.lighting.is_none() && self.content == Content::World && (!self.is_complete() || is_surrounded)
     }
 
+    /// Returns the bytes that the filter keeps beside the light of a world, for that view, or that part of one, for which they are most.
+    pub(super) fn filter_bytes(&self) -> u64 {
+        let bytes = |target: &TargetView| self.resampler(target).filter_bytes() as u64;
+        if self.is_by_strips() {
+            let of_strip = |strip: Strip| strip.views(&self.target.views).iter().map(bytes).max().unwrap_or(0);
+            Strip::all(&self.target, STRIP).map(of_strip).max().unwrap_or(0)
+        } else {
+            self.target.views.iter().map(bytes).max().unwrap_or(0)
+        }
+    }
+
+    /// Returns the pixels of further channels that are held at once: of all pictures, or of a strip and of the one before, which is written.
+    pub(super) fn pixels_made(&self) -> u64 {
+        let sizes = self.target.files.iter().map(|file| file.sheet.size);
+        if self.is_by_strips() { strip_of(sizes).saturating_mul(2) } else { pixels_in(sizes) }
+    }
+
     /// Returns the memory that a single frame needs in all: with the program, further channels, and what lies behind.
     pub(crate) fn estimated_bytes(&self, threads: usize) -> u64 {
         let of_layer = |job: &Self| {
-            let made = job.target.files.iter().map(|file| file.sheet.size);
-            let made = made.map(|(width, height)| width as u64 * height as u64).fold(0, u64::saturating_add);
-            job.frame_needs().peak().saturating_add(job.layers.bytes(job.input.texels() as u64, made))
+            let further = job.layers.bytes(job.input.texels() as u64, job.pixels_made());
+            job.frame_needs().peak().saturating_add(further)
         };
         let pictures = self.layers().map(of_layer).fold(0, u64::saturating_add);
         with_reserve(pictures).saturating_add(program_bytes(threads))
@@ -385,19 +405,17 @@ impl MemoryBudget {
         self.allow(with_program(needs.peak()), "a frame", &why)
     }
 
-    /// Chooses how many further channels are read at once, and returns the budget that is left beside all of them. It
-    /// is an error if not even the largest group of them fits beside a frame.
+    /// Chooses how many further channels are read at once, of so many texels, and returns the budget that is left beside all of them,
+    /// of which so many pixels are made. It is an error if not even the largest group of them fits beside a frame.
     pub(crate) fn beside_channels(
         self,
         layers: &mut LayerPlan,
         needs: FrameNeeds,
-        (input, target): (&Input, &Target),
+        (read, made): (u64, u64),
     ) -> Result<Self> {
         if layers.groups.is_empty() {
             return Ok(self);
         }
-        let made = target.files.iter().map(|file| area(file.sheet.size)).fold(0, u64::saturating_add);
-        let read = input.texels() as u64;
         let least = layers.bytes(read, made);
         let needed = needs.peak().saturating_add(least);
         let why = format!("; its further channels are {} of it, and {CHANNELS} takes fewer", human(least));

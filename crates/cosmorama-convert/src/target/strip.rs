@@ -35,13 +35,29 @@ impl Strip {
         Self { file, rows, sheet, parts }
     }
 
+    /// Visits the strips of all of a target's files, of so many rows.
+    pub(crate) fn all(target: &Target, rows: usize) -> impl Iterator<Item = Self> {
+        let sizes = target.files.iter().map(|file| file.sheet.size).enumerate();
+        sizes.flat_map(move |(file, (_, height))| {
+            (0..height).step_by(rows).map(move |top| Self::of(target, file, top..height.min(top + rows)))
+        })
+    }
+
     /// Returns the parts of the target's views, in whatever pose these are.
     pub(crate) fn views(&self, whole: &[TargetView]) -> Vec<TargetView> {
-        let part = |(index, rows): &(usize, Range<usize>)| {
-            let whole = &whole[*index];
-            let grid = whole.view.grid.window(whole.view.width(), rows.len(), 0.0, rows.start as f64);
-            TargetView { view: View { grid, ..whole.view.clone() }, ..whole.clone() }
-        };
-        self.parts.iter().map(part).collect()
+        self.parts.iter().map(|(index, rows)| whole[*index].rows(rows.clone())).collect()
+    }
+
+    /// Visits the indices of the views of which it has parts.
+    pub(crate) fn indices(&self) -> impl Iterator<Item = usize> {
+        self.parts.iter().map(|(index, _)| *index)
+    }
+}
+
+impl TargetView {
+    /// Returns the view of some of its rows.
+    pub(crate) fn rows(&self, rows: Range<usize>) -> Self {
+        let grid = self.view.grid.window(self.view.width(), rows.len(), 0.0, rows.start as f64);
+        Self { view: View { grid, ..self.view.clone() }, ..self.clone() }
     }
 }

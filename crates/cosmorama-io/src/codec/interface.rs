@@ -7,7 +7,7 @@ use std::path::Path;
 use cosmorama::raster::{Depth, EncodedImage, FramePool, Samples};
 
 use crate::header::{Header, ImageFile};
-use crate::{Choice, Format, IoError, LayeredImage, Limits, MadeRows, Plane, WriteOptions};
+use crate::{Choice, Format, IoError, LayeredImage, Limits, MadeLayers, MadeRows, Plane, WriteOptions};
 
 /// Bytes of a file from any source: a file on disk, a slice of memory, or standard input read into memory.
 ///
@@ -98,6 +98,17 @@ pub(crate) trait Codec: Sync {
         path: &Path,
         _output: Sink<'_>,
         _layered: LayeredImage<'_>,
+        _options: &WriteOptions,
+    ) -> Result<(), IoError> {
+        Err(IoError::write(path, "the format names no channels"))
+    }
+
+    /// Writes a picture with named channels beside it, or such channels alone, whose rows are made meanwhile. Called only for OpenEXR.
+    fn encode_layer_rows(
+        &self,
+        path: &Path,
+        _output: Sink<'_>,
+        _layers: MadeLayers<'_>,
         _options: &WriteOptions,
     ) -> Result<(), IoError> {
         Err(IoError::write(path, "the format names no channels"))

@@ -12,6 +12,6 @@ pub use read::{
 };
 pub use st_pairs::{StPairs, probe_pairs, probe_pairs_from, read_pairs, read_pairs_from};
 pub use write::{
-    write, write_flat, write_hidden, write_layers, write_layers_hidden, write_levels, write_planes, write_rows_hidden,
-    write_to,
+    write, write_flat, write_hidden, write_layer_rows_hidden, write_layers, write_layers_hidden, write_levels,
+    write_planes, write_rows_hidden, write_to,
 };

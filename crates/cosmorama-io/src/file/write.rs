@@ -6,7 +6,7 @@ use cosmorama::raster::{Channels, Depth, EncodedImage};
 use crate::codec::{NumberPlanes, codec};
 use crate::header::Format;
 use crate::pending::{Hidden, Pending};
-use crate::{IoError, LayeredImage, MadeRows, WriteOptions};
+use crate::{IoError, LayeredImage, MadeLayers, MadeRows, WriteOptions};
 
 /// Writes a file in the format of its extension. It appears whole or not at all: an older file of the same name is
 /// replaced only when the new one is complete.
@@ -183,25 +183,50 @@ pub fn write_layers_hidden(
 ) -> Result<Hidden, IoError> {
     let path = path.as_ref();
     let format = Format::from_extension(path)?;
-    let cannot_hold =
-        |found: String, expected: String| Err(IoError::CannotHold { path: path.to_owned(), format, found, expected });
-    if format != Format::Exr {
-        return cannot_hold(
-            format!("{} named channels", layered.planes.len()),
-            "a picture; OpenEXR holds more".to_owned(),
-        );
-    }
+    check_names_channels(path, format, layered.planes.len())?;
     if let Some(image) = layered.picture {
         check_can_hold(path, format, (image.channels(), image.depth()))?;
     }
     let (width, height) = layered.size;
     let count = width.checked_mul(height);
     if let Some(plane) = layered.planes.iter().find(|plane| count != Some(plane.samples.len())) {
-        return cannot_hold(format!("{} samples in {}", plane.samples.len(), plane.name), format!("{width}x{height}"));
+        let (found, expected) =
+            (format!("{} samples in {}", plane.samples.len(), plane.name), format!("{width}x{height}"));
+        return Err(IoError::CannotHold { path: path.to_owned(), format, found, expected });
     }
     let mut pending = Pending::create(path, &options.unfinished)?;
     codec(path, format)?.encode_layers(path, pending.writer(), layered, options)?;
     pending.close()
+}
+
+/// Writes a picture with named channels, or such channels alone, whose rows are made meanwhile; it gets its name later. Its bytes are those
+/// that [`write_layers()`] writes.
+///
+/// # Errors
+/// When [`write_layers()`] would fail, or rows are not made.
+pub fn write_layer_rows_hidden(
+    path: impl AsRef<Path>,
+    layers: MadeLayers<'_>,
+    options: &WriteOptions,
+) -> Result<Hidden, IoError> {
+    let path = path.as_ref();
+    let format = Format::from_extension(path)?;
+    check_names_channels(path, format, layers.planes.len())?;
+    if let Some(form) = layers.picture {
+        check_can_hold(path, format, form)?;
+    }
+    let mut pending = Pending::create(path, &options.unfinished)?;
+    codec(path, format)?.encode_layer_rows(path, pending.writer(), layers, options)?;
+    pending.close()
+}
+
+/// Refuses named channels in a format without them.
+fn check_names_channels(path: &Path, format: Format, channels: usize) -> Result<(), IoError> {
+    if format == Format::Exr {
+        return Ok(());
+    }
+    let (found, expected) = (format!("{channels} named channels"), "a picture; OpenEXR holds more".to_owned());
+    Err(IoError::CannotHold { path: path.to_owned(), format, found, expected })
 }
 
 fn check_can_hold(path: &Path, format: Format, (channels, depth): (Channels, Depth)) -> Result<(), IoError> {

@@ -10,10 +10,12 @@ use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
 pub use choice::Choice;
 pub use format::Format;
 pub use plane::{LayeredImage, Plane, PlaneSamples};
-pub use rows::MadeRows;
+pub use rows::{LayeredRows, MadeLayers, MadeRows};
 
 pub(crate) use choice::matches;
 pub(crate) use rows::Picture;
+#[cfg(feature = "exr")]
+pub(crate) use rows::visit;
 
 use crate::metadata::{Metadata, Window};
 

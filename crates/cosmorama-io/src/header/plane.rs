@@ -1,3 +1,5 @@
+use std::ops::Range;
+
 use cosmorama::raster::{Depth, EncodedImage};
 use half::f16;
 
@@ -58,6 +60,24 @@ impl PlaneSamples {
     /// Returns whether there are no samples.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+
+    /// Returns the samples of a range.
+    ///
+    /// # Panics
+    /// When there are not as many.
+    #[must_use]
+    pub fn part(self, range: Range<usize>) -> Self {
+        fn of<S>(mut samples: Vec<S>, Range { start, end }: Range<usize>) -> Vec<S> {
+            samples.truncate(end);
+            samples.drain(..start);
+            samples
+        }
+        match self {
+            Self::Half(samples) => Self::Half(of(samples, range)),
+            Self::Float(samples) => Self::Float(of(samples, range)),
+            Self::Uint(samples) => Self::Uint(of(samples, range)),
+        }
     }
 
     /// Returns the sample type.

@@ -3,6 +3,9 @@ use std::ops::Range;
 
 use cosmorama::raster::{AlphaMode, Channels, Depth, EncodedImage, Samples};
 
+use super::Plane;
+use crate::metadata::SampleKind;
+
 /// A picture whose rows are made while it is written, so that it need not be held whole.
 pub struct MadeRows<'a> {
     /// Columns and rows of the picture.
@@ -20,32 +23,70 @@ pub struct MadeRows<'a> {
     pub make: &'a mut (dyn FnMut(Range<usize>) -> Option<EncodedImage> + Send),
 }
 
+/// A picture with named channels beside it, or such channels alone, whose rows are made while they are written.
+pub struct MadeLayers<'a> {
+    /// Columns and rows.
+    pub size: (usize, usize),
+    /// Channels and depth of the picture; `None` for channels alone.
+    pub picture: Option<(Channels, Depth)>,
+    /// Names of the picture's channels, in the order of its samples; plain R, G, B, Y and A, unless given.
+    pub names: Vec<String>,
+    /// Names and sample types of the further channels. One with the name of a picture's channel is left out.
+    pub planes: Vec<(String, SampleKind)>,
+    /// Rows that are made at once, at most.
+    pub at_once: usize,
+    /// Makes rows; `None` ends the writing with an error. Each row is asked for once, from above.
+    pub make: &'a mut (dyn FnMut(Range<usize>) -> Option<LayeredRows> + Send),
+}
+
+/// Rows of a picture with named channels beside it.
+pub struct LayeredRows {
+    /// Rows of the picture, if there is one.
+    pub picture: Option<EncodedImage>,
+    /// The same rows of the further channels.
+    pub planes: Vec<Plane>,
+}
+
+/// Visits rows, as many at once as are made together. The next ones are made meanwhile, if this thread has others beside it.
+pub(crate) fn visit<P: Send, E: From<io::Error>>(
+    rows: Range<usize>,
+    at_once: usize,
+    make: &mut (dyn FnMut(Range<usize>) -> Option<P> + Send),
+    mut each: impl FnMut(P) -> Result<(), E>,
+) -> Result<(), E> {
+    let (at_once, end) = (at_once.max(1), rows.end);
+    let mut part = |top: usize| make(top..end.min(top + at_once)).ok_or_else(not_made);
+    let (mut top, mut made): (usize, Option<io::Result<P>>) = (rows.start, None);
+    while top < end {
+        let here = made.take().unwrap_or_else(|| part(top))?;
+        top += at_once;
+        rayon::in_place_scope(|scope| {
+            if top < end {
+                scope.spawn(|_| made = Some(part(top)));
+            }
+            each(here)
+        })?;
+    }
+    Ok(())
+}
+
+fn not_made() -> io::Error {
+    io::Error::other("its rows were not made")
+}
+
 impl MadeRows<'_> {
-    /// Visits rows, as many at once as are made together. The next ones are made meanwhile, if this thread has others beside it.
+    /// Visits rows, as many at once as are made together.
     pub(crate) fn visit<E: From<io::Error>>(
         &mut self,
         rows: Range<usize>,
-        mut each: impl FnMut(&EncodedImage) -> Result<(), E>,
+        each: impl FnMut(EncodedImage) -> Result<(), E>,
     ) -> Result<(), E> {
-        let (at_once, end) = (self.at_once.max(1), rows.end);
-        let part = |top: usize| top..end.min(top + at_once);
-        let (mut top, mut made): (usize, Option<io::Result<EncodedImage>>) = (rows.start, None);
-        while top < end {
-            let here = made.take().unwrap_or_else(|| self.part(part(top)))?;
-            top += at_once;
-            rayon::in_place_scope(|scope| {
-                if top < end {
-                    scope.spawn(|_| made = Some(self.part(part(top))));
-                }
-                each(&here)
-            })?;
-        }
-        Ok(())
+        visit(rows, self.at_once, &mut *self.make, each)
     }
 
     /// Makes rows.
     pub(crate) fn part(&mut self, rows: Range<usize>) -> io::Result<EncodedImage> {
-        (self.make)(rows).ok_or_else(|| io::Error::other("its rows were not made"))
+        (self.make)(rows).ok_or_else(not_made)
     }
 
     /// Makes the whole picture, for a writer that needs all of it.
@@ -55,7 +96,7 @@ impl MadeRows<'_> {
         let mut samples: Option<Samples> = None;
         self.visit(0..height, |rows| {
             match &mut samples {
-                None => samples = Some(rows.samples().clone()),
+                None => samples = Some(rows.into_samples()),
                 Some(above) => append(above, rows.samples(), all),
             }
             Ok::<(), io::Error>(())
@@ -128,7 +169,7 @@ impl Picture<'_, '_> {
     ) -> Result<(), E> {
         match self {
             Self::Held(image) => each(image, rows),
-            Self::Made(made) => made.visit(rows, |part| each(part, 0..part.height())),
+            Self::Made(made) => made.visit(rows, |part| each(&part, 0..part.height())),
         }
     }
 }
@@ -138,7 +179,10 @@ mod tests {
     use half::f16;
 
     use super::*;
-    use crate::{Compression, EnvMap, Metadata, WriteOptions, write, write_rows_hidden};
+    use crate::{
+        Compression, EnvMap, LayeredImage, Metadata, PlaneSamples, WriteOptions, write, write_layer_rows_hidden,
+        write_layers, write_rows_hidden,
+    };
 
     /// Columns and rows: the last rows that are made together are fewer.
     const SIZE: (usize, usize) = (70, 1100);
@@ -195,6 +239,36 @@ mod tests {
                 let read = |path| std::fs::read(path).unwrap();
                 assert!(read(whole) == read(by_rows), "{end} of {channels}, {depth}, {compression:?}");
             }
+        }
+    }
+
+    #[test]
+    fn rows_with_named_channels_become_the_file_of_the_whole() {
+        let folder = tempfile::tempdir().unwrap();
+        let (whole, by_rows) = (folder.path().join("whole.exr"), folder.path().join("by_rows.exr"));
+        let (light, numbers) = (picture(Channels::Rgba, Depth::Half), picture(Channels::Grey, Depth::Float));
+        let Samples::Float(depths) = numbers.samples() else { panic!("no floats") };
+        let named = |name: &str, samples| Plane { name: name.to_owned(), samples };
+        let planes = |rows: Range<usize>| {
+            let here = rows.start * SIZE.0..rows.end * SIZE.0;
+            let labels = here.clone().map(|at| at as u32 * 7919).collect();
+            vec![named("id", PlaneSamples::Uint(labels)), named("Z", PlaneSamples::Float(depths[here].to_vec()))]
+        };
+        let kinds = [("id", SampleKind::Uint), ("Z", SampleKind::Float)].map(|(name, kind)| (name.to_owned(), kind));
+        for picture in [Some(&light), None] {
+            let all = LayeredImage { size: SIZE, picture, names: Vec::new(), planes: planes(0..SIZE.1) };
+            write_layers(&whole, all, &WriteOptions::default()).unwrap();
+            let make = &mut |rows: Range<usize>| {
+                let part = |image: &EncodedImage| {
+                    image.cropped((0, rows.start), (SIZE.0, rows.len())).with_alpha_mode(image.alpha_mode())
+                };
+                Some(LayeredRows { picture: picture.map(part), planes: planes(rows.clone()) })
+            };
+            let picture = picture.map(|image| (image.channels(), image.depth()));
+            let (names, planes) = (Vec::new(), kinds.to_vec());
+            let layers = MadeLayers { size: SIZE, picture, names, planes, at_once: 500, make };
+            write_layer_rows_hidden(&by_rows, layers, &WriteOptions::default()).unwrap().appear().unwrap();
+            assert!(std::fs::read(&whole).unwrap() == std::fs::read(&by_rows).unwrap(), "{picture:?}");
         }
     }
 

@@ -36,10 +36,12 @@ impl Engine<'_> {
         progress: &dyn Progress,
     ) -> Result<Vec<Levels>> {
         let (job, frame) = (self.job, part.frame);
+        // A strip gets them beside its picture.
+        let has_channels = part.strip.is_none() && !job.layers.is_plain();
         let Some(blur) = job.movement.as_ref().and_then(|movement| movement.blur) else {
             bail!("a camera without movement cannot blur")
         };
-        let passes = job.layers.groups.len();
+        let passes = if has_channels { job.layers.groups.len() } else { 0 };
         let share = Share { whole: progress, from: 0.0, to: 1.0 / (1 + passes) as f64 };
         let exposed = Exposed { part, moments, blur, time: time(frame.frame.unwrap_or_default()) };
         let is_at_once = || self.is_swept_at_once((job.place(frame.frame), light), moments);
@@ -50,7 +52,7 @@ impl Engine<'_> {
             BlurMethod::Swept => self.swept(light, &exposed, &share)?,
             BlurMethod::Ellipse => self.ellipse(light, &exposed, &share)?,
         };
-        if job.layers.is_plain() {
+        if !has_channels {
             return Ok(pictures);
         }
         let layer = self.layer(frame, progress)?;

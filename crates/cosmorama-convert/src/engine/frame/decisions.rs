@@ -2,7 +2,8 @@
 
 use super::pictures::Engine;
 use crate::diagnostic::{Decision, Topic};
-use crate::job::{QueueDepth, program_bytes};
+use crate::engine::geometry::bytes_of_passes;
+use crate::job::{QueueDepth, program_bytes, with_reserve};
 use crate::source::lock;
 use crate::source::memory_budget::human;
 
@@ -28,10 +29,11 @@ impl Engine<'_> {
     /// Returns the memory that the run needs in all, about and at most.
     pub(crate) fn estimated_bytes(&self) -> u64 {
         let (job, threads) = (self.job, rayon::current_num_threads());
+        let kept = lock(&self.posed).as_ref().map_or(0, |posed| posed.geometry.bytes()) + self.strips.bytes();
+        let geometry = kept + if job.is_by_strips() { bytes_of_passes(job) } else { 0 };
         if !job.outputs.are_many() {
-            return job.estimated_bytes(threads);
+            return job.estimated_bytes(threads).saturating_add(with_reserve(geometry));
         }
-        let geometry = lock(&self.posed).as_ref().map_or(0, |posed| posed.geometry.bytes()) + self.strips.bytes();
         let own = [job.frame_needs().shared, self.queue_depth().bytes, geometry];
         let behind = job.layers().skip(1).map(|job| job.frame_needs().peak());
         own.into_iter().chain(behind).fold(program_bytes(threads), u64::saturating_add)

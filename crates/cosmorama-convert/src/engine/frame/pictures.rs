@@ -15,11 +15,11 @@ use crate::engine::frame::behind::Behind;
 use crate::engine::frame::blur::FramePart;
 use crate::engine::frame::fill::counted;
 use crate::engine::frame::strips::KeptStrips;
-use crate::engine::geometry::arithmetic;
+use crate::engine::geometry::{arithmetic, balance_bytes};
 use crate::engine::unfiltered::formula;
 use crate::engine::{
-    BalancedLight, FrameLight, LayerPass, Levels, LightMaps, LightReport, Posed, Shares, Texels, WorldLight, Writer,
-    WriterOptions, warnings,
+    BalancedLight, FrameLight, FurtherFiles, LayerPass, Levels, LightMaps, LightReport, Posed, Shares, Texels,
+    WorldLight, Writer, WriterOptions, warnings,
 };
 use crate::input::InputView;
 use crate::job::coverage::Coverage;
@@ -78,13 +78,21 @@ impl<'a> Engine<'a> {
             (None, Vec::new())
         } else {
             let is_repeated = job.outputs.are_many() && !is_by_strips;
-            let (posed, told) = Posed::new(job, (None, job.target.views.clone(), is_repeated), progress)?;
+            let first = Share { whole: progress, from: 0.0, to: if is_by_strips { 0.5 } else { 1.0 } };
+            let (posed, told) = Posed::new(job, (None, job.target.views.clone(), is_repeated), &first)?;
             (Some(Arc::new(posed)), told)
         };
-        let (strips, further) = KeptStrips::new(job, progress)?;
-        told.extend(further);
+        let strips = match &posed {
+            Some(posed) => {
+                let rest = Share { whole: progress, from: 0.5, to: 1.0 };
+                let (strips, further) = KeptStrips::new(job, &posed.geometry, &rest)?;
+                told.extend(further);
+                strips
+            }
+            None => KeptStrips::default(),
+        };
         let geometry = match &posed {
-            None if is_by_strips => 0,
+            None if is_by_strips => balance_bytes(job),
             None => bytes_while_moving(job),
             Some(posed) => posed.geometry.bytes() + strips.bytes(),
         };
@@ -317,7 +325,8 @@ impl<'a> Engine<'a> {
         Making { layer, shares }: &mut Making,
     ) -> Result<Vec<Levels>> {
         let pass = LayerPass { job: self.job, posed: &layer.posed, pool: &self.pool };
-        let made = pass.make(frame, shares)?;
+        let sheets: Vec<&Sheet> = frame.files.iter().map(|(file, _)| &self.job.target.files[*file].sheet).collect();
+        let made = pass.make(&FurtherFiles::new(self.job, frame.frame), &sheets, shares)?;
         let size = |(index, _): &(usize, PathBuf)| self.job.target.files[*index].sheet.size;
         let all = frame.files.iter().map(size).zip(pictures).zip(made);
         Ok(all.map(|((size, picture), planes)| picture.with_planes(size, planes)).collect())

@@ -1,10 +1,12 @@
 //! Further channels of a frame: read, filtered by the rule for what they hold, and kept for the outputs.
 
+mod files;
 mod fill;
 mod finish;
 mod labels;
 mod pass;
 
+pub(crate) use files::FurtherFiles;
 pub(crate) use pass::LayerPass;
 
 use std::path::PathBuf;

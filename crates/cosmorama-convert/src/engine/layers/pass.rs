@@ -3,21 +3,20 @@ use std::sync::OnceLock;
 use cosmorama::filter::{ClassicTables, FilterKind, FilterSettings, Labels};
 use cosmorama::raster::{FramePool, Image, Rgba, Threads};
 use cosmorama::render::{Resampler, Stopped};
-use cosmorama_io::{Limits, Plane, PlaneSamples};
+use cosmorama_io::{Plane, PlaneSamples};
 use rayon::prelude::*;
 
 use super::fill::fill;
 use super::finish::finish;
 use super::labels::LabelTexels;
-use super::{FilePlanes, ViewPlanes};
+use super::{FilePlanes, FurtherFiles, ViewPlanes};
 use crate::colour::{LayerContent, LayerGroup};
 use crate::diagnostic::{ConvertError, Result, bail};
 use crate::engine::Shares;
-use crate::engine::{BalancedLight, FrameFile, Posed, Which, WorldLight};
+use crate::engine::{BalancedLight, Posed, WorldLight};
+use crate::job::ConvertJob;
 use crate::job::coverage::Coverage;
-use crate::job::{ConvertJob, FrameOutputs};
 use crate::packing::Place;
-use crate::source::read_further;
 use crate::target::Sheet;
 
 /// Makes the further channels of frames.
@@ -38,14 +37,19 @@ struct GroupTexels<'a> {
 }
 
 impl LayerPass<'_> {
-    /// Makes the channels of each file of a frame. Groups are made one after the other.
-    pub(crate) fn make(&self, frame: &FrameOutputs, shares: &mut Shares<'_>) -> Result<Vec<Vec<Plane>>> {
+    /// Makes the channels of each sheet. Groups are made one after the other.
+    pub(crate) fn make(
+        &self,
+        files: &FurtherFiles<'_>,
+        sheets: &[&Sheet],
+        shares: &mut Shares<'_>,
+    ) -> Result<Vec<Vec<Plane>>> {
         let job = self.job;
-        let mut made: Vec<Vec<Plane>> = frame.files.iter().map(|_| Vec::new()).collect();
+        let mut made: Vec<Vec<Plane>> = sheets.iter().map(|_| Vec::new()).collect();
         let mut worlds: Vec<Vec<Rgba>> =
             job.worlds.iter().map(|world| bytemuck::zeroed_vec(world.texel_count())).collect();
         for batch in job.layers.batches(job.input.texels() as u64) {
-            let files = self.read(frame.frame, batch)?;
+            let files = files.of(batch)?;
             let mut first = 0;
             for group in batch {
                 let views = self.views(&files, first..first + group.channels.len())?;
@@ -57,27 +61,12 @@ impl LayerPass<'_> {
                 }
                 let tables = vec![OnceLock::new(); worlds.len()];
                 let texels = GroupTexels { group, worlds: &worlds, tables, labels };
-                for ((file, _), planes) in frame.files.iter().zip(&mut made) {
-                    planes.extend(self.planes(&job.target.files[*file].sheet, &texels, shares)?);
+                for (sheet, planes) in sheets.iter().zip(&mut made) {
+                    planes.extend(self.planes(sheet, &texels, shares)?);
                 }
             }
         }
         Ok(made)
-    }
-
-    /// Reads the channels of some groups from all files of a frame.
-    fn read(&self, frame: Option<u64>, batch: &[LayerGroup]) -> Result<Vec<FilePlanes>> {
-        let job = self.job;
-        let names: Vec<&str> =
-            batch.iter().flat_map(|group| &group.channels).map(|channel| channel.name.as_str()).collect();
-        let limits = Limits::memory(job.memory.bytes);
-        let read = |file: FrameFile<'_>| -> Result<FilePlanes> {
-            let planes = read_further(&*job.files, &file.path, &limits, &names)?;
-            Ok(FilePlanes { views: file.indices(), path: file.path, planes })
-        };
-        let files = FrameFile::all(job, frame, Which::All).into_par_iter();
-        // In the order of files, so that the same one of several errors is reported every time.
-        files.map(read).collect::<Vec<_>>().into_iter().collect()
     }
 
     /// Returns the channels `range` of what was read, for each view.

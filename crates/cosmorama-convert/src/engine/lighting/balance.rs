@@ -1,15 +1,17 @@
 //! Energy balance: the total light of a world is kept from one form to another, suns included.
 
+use std::sync::Arc;
+
 use cosmorama::camera::View;
 use cosmorama::lighting::LightBalance;
 use cosmorama::raster::{Image, Rgba};
-use cosmorama::render::Plan;
+use cosmorama::render::{Arithmetic, Plan, Progress, Share, Stopped};
 
-use crate::job::ConvertJob;
-use crate::target::TargetView;
+use crate::job::{ConvertJob, STRIP};
+use crate::target::{Strip, TargetView};
 
 /// Energy balance of a job's pictures, for those that can and should keep light.
-#[cfg_attr(test, derive(Default))]
+#[derive(Default)]
 pub(crate) struct Balance(Vec<Group>);
 
 /// Balanced light of a frame for the most recent group; views of a group mostly follow one another.
@@ -20,7 +22,9 @@ pub(crate) struct BalancedLight(Option<(usize, Vec<Rgba>)>);
 struct Group {
     /// Indices of the target's views.
     views: Vec<usize>,
-    balance: LightBalance,
+    balance: Arc<LightBalance>,
+    /// Factors of each view's pixels; none of pictures that are made strip by strip.
+    pixels: Vec<Vec<f32>>,
     bytes: u64,
 }
 
@@ -41,17 +45,19 @@ pub(crate) fn groups(job: &ConvertJob, targets: &[TargetView]) -> Vec<Vec<usize>
             None => groups.push(vec![index]),
         }
     }
-    groups.retain(|group| LightBalance::applies(job.world(&targets[group[0]]), &views(targets, group)));
+    let views = |group: &[usize]| group.iter().map(|index| &targets[*index].view).collect::<Vec<&View>>();
+    groups.retain(|group| LightBalance::applies(job.world(&targets[group[0]]), &views(group)));
     groups
 }
 
-/// Returns the bytes that the balance of these groups takes.
-pub(crate) fn bytes_of((job, targets): (&ConvertJob, &[TargetView]), groups: &[Vec<usize>]) -> u64 {
-    groups.iter().map(|group| LightBalance::bytes(job.world(&targets[group[0]]), &views(targets, group))).sum()
-}
-
-fn views<'a>(targets: &'a [TargetView], group: &[usize]) -> Vec<&'a View> {
-    group.iter().map(|index| &targets[*index].view).collect()
+/// Returns the bytes that the balance of these groups takes, of whose views so many rows are made at once.
+pub(crate) fn bytes_of((job, targets): (&ConvertJob, &[TargetView]), groups: &[Vec<usize>], rows: usize) -> u64 {
+    let pixels = |index: &usize| {
+        let view = &targets[*index].view;
+        view.width() as u64 * view.height().min(rows) as u64
+    };
+    let bytes = |group: &Vec<usize>| LightBalance::bytes(job.world(&targets[group[0]]), group.iter().map(pixels).sum());
+    groups.iter().map(bytes).sum()
 }
 
 impl Balance {
@@ -65,10 +71,62 @@ impl Balance {
             let plan = |index: &usize| Some((plans[*index].as_ref()?, &targets[*index].view));
             let planned: Vec<_> = indices.iter().map(plan).collect::<Option<_>>()?;
             let balance = LightBalance::new(job.world(&targets[indices[0]]), &planned);
-            let bytes = bytes_of((job, targets), std::slice::from_ref(&indices));
-            Some(Group { views: indices, balance, bytes })
+            let pixels = planned.iter().map(|(plan, _)| balance.pixels(plan)).collect();
+            let bytes = bytes_of((job, targets), std::slice::from_ref(&indices), usize::MAX);
+            Some(Group { views: indices, balance: Arc::new(balance), pixels, bytes })
         };
         Self(groups.into_iter().filter_map(balanced).collect())
+    }
+
+    /// Computes the balance of groups whose pictures are made strip by strip. Plans of strips are made anew for each of its steps: all
+    /// together are too large.
+    pub(crate) fn by_strips(
+        (job, targets): (&ConvertJob, &[TargetView]),
+        groups: Vec<Vec<usize>>,
+        progress: &dyn Progress,
+    ) -> Result<Self, Stopped> {
+        let count = groups.len();
+        let balanced = |(place, indices): (usize, Vec<usize>)| {
+            let at = |place: usize| place as f64 / count as f64;
+            let share = Share { whole: progress, from: at(place), to: at(place + 1) };
+            let all: usize = indices.iter().map(|index| targets[*index].view.height()).sum();
+            let mut done = 0;
+            let balance = LightBalance::of_parts(job.world(&targets[indices[0]]), |visit| {
+                for target in indices.iter().map(|index| &targets[*index]) {
+                    for top in (0..target.view.height()).step_by(STRIP) {
+                        let part = target.rows(top..target.view.height().min(top + STRIP));
+                        let at = |done: usize| done as f64 / (all * LightBalance::STEPS) as f64;
+                        let share = Share { whole: &share, from: at(done), to: at(done + part.view.height()) };
+                        done += part.view.height();
+                        if let Some(plan) = job.resampler(&part).watched(&share).plan(Arithmetic::Float)? {
+                            visit(&plan, &part.view);
+                        }
+                    }
+                }
+                Ok(())
+            })?;
+            let bytes = bytes_of((job, targets), std::slice::from_ref(&indices), STRIP);
+            Ok(Group { views: indices, balance: Arc::new(balance), pixels: Vec::new(), bytes })
+        };
+        Ok(Self(groups.into_iter().enumerate().map(balanced).collect::<Result<_, Stopped>>()?))
+    }
+
+    /// Returns the balance of a strip, of that of whole pictures.
+    pub(crate) fn of_strip(&self, strip: &Strip, plans: &[Option<Plan>]) -> Self {
+        let part = |Group { views, balance, .. }: &Group| {
+            let (views, pixels): (Vec<usize>, Vec<Vec<f32>>) = (strip.indices().enumerate())
+                .filter(|(_, index)| views.contains(index))
+                .filter_map(|(part, _)| Some((part, balance.pixels(plans[part].as_ref()?))))
+                .unzip();
+            let bytes = pixels.iter().map(|pixels| size_of_val(&pixels[..]) as u64).sum();
+            Group { views, balance: Arc::clone(balance), pixels, bytes }
+        };
+        Self(self.0.iter().map(part).collect())
+    }
+
+    /// Returns whether no light is balanced.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.is_empty()
     }
 
     /// Returns the bytes of the balance and of the light that it makes.
@@ -90,10 +148,50 @@ impl Balance {
 
     /// Applies the factors of a target view's pixels.
     pub(crate) fn complete(&self, view: usize, image: &mut Image<Rgba>) {
-        self.group(view).iter().for_each(|(group, place)| group.balance.complete(*place, image));
+        let factors = |group: &Group| group.views.iter().position(|index| *index == view);
+        if let Some(factors) = self.0.iter().find_map(|group| group.pixels.get(factors(group)?)) {
+            LightBalance::complete(factors, image);
+        }
     }
+}
 
-    fn group(&self, view: usize) -> Option<(&Group, usize)> {
-        self.0.iter().find_map(|group| Some((group, group.views.iter().position(|index| *index == view)?)))
+#[cfg(test)]
+mod tests {
+    use std::ops::ControlFlow;
+
+    use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
+    use cosmorama_io::WriteOptions;
+
+    use super::*;
+    use crate::settings::Conversion;
+
+    /// Compares the balance that strips make together with that of whole pictures.
+    #[test]
+    fn the_balance_of_strips_is_that_of_the_whole() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name).display().to_string();
+        let sky = EncodedImage::new(64, 32, Channels::Rgb, Depth::Float, Samples::Float(vec![0.5; 64 * 32 * 3]));
+        cosmorama_io::write(path("sky.exr"), &sky.unwrap(), &WriteOptions::default()).unwrap();
+        let progress = &|_: f64| ControlFlow::Continue(());
+        for (to, size, output) in
+            [("equirect:pitch=30", "10x1100", "sphere.exr"), ("cube:layout=cross-h", "280", "cross.exr")]
+        {
+            let conversion = Conversion::new(path("sky.exr"), path(output)).from("equirect".parse().unwrap());
+            let mut conversion = conversion.to(to.parse().unwrap()).size(size.parse().unwrap());
+            conversion.geometry.kernel = "light".parse().unwrap();
+            let checked = conversion.check().result.unwrap();
+            let (job, views) = (&checked.job, &checked.job.target.views[..]);
+            let plan = |target: &TargetView| job.resampler(target).plan(Arithmetic::Float);
+            let whole = Balance::of((job, views), groups(job, views), &views.iter().map(plan).collect::<Vec<_>>());
+            let by_strips =
+                Balance::by_strips((job, views), groups(job, views), progress).unwrap_or_else(|_| panic!("stopped"));
+            let light = vec![Rgba::opaque(1.0, 1.0, 1.0); job.worlds[0].texel_count()];
+            let factors = |balance: &Balance| balance.light(0, &light, &mut BalancedLight::default()).unwrap().to_vec();
+            let (whole, by_strips) = (factors(&whole), factors(&by_strips));
+            assert!(whole.iter().any(|factor| (factor.0[0] - 1.0).abs() > 1e-3), "{to}: nothing is balanced");
+            for (whole, part) in whole.iter().zip(&by_strips) {
+                assert!((whole.0[0] - part.0[0]).abs() < 1e-4, "{to}: {whole:?} and {part:?}");
+            }
+        }
     }
 }

@@ -1,18 +1,16 @@
 //! Pictures of worlds by formula, and maps of directions.
 
 use std::ops::Range;
-use std::path::Path;
 use std::sync::Arc;
 
 use cosmorama::camera::View;
 use cosmorama::motion::LightSum;
-use cosmorama::raster::{ColourMatrix, Depth, Image, Primaries, Rgba, Threads};
+use cosmorama::raster::{ColourMatrix, Image, Primaries, Rgba, Threads};
 use cosmorama_builtin::{BuiltinWorld, DirectionMap, DirectionPixel};
 use cosmorama_io::pending::Hidden;
-use cosmorama_io::{WriteOptions, write_planes};
 
 use crate::diagnostic::Result;
-use crate::engine::unfiltered::OutputFile;
+use crate::engine::unfiltered::{Numbers, OutputFile};
 use crate::engine::{FrameWords, Levels, Stage, Writer, WriterOptions};
 use crate::job::{ConvertJob, STRIP};
 use crate::target::{Sheet, Strip, TargetView};
@@ -47,11 +45,9 @@ fn by_strips(output: &OutputFile, world: BuiltinWorld, writer: &Writer, words: F
 
 /// Makes a map of directions.
 pub(crate) fn directions(output: &OutputFile, map: DirectionMap) -> Result<()> {
-    let OutputFile { job, stages, path, .. } = *output;
-    let pixels = stages.alone(Stage::Filter, || pixels(output, map))?;
-    let metadata = job.light.metadata.clone();
-    let options = WriteOptions { unfinished: output.unfinished.clone(), ..WriteOptions::with_metadata(metadata) };
-    stages.alone(Stage::Encode, || save_map(job.light.depth, map, &pixels, path, &options))
+    let metadata = output.job.light.metadata.clone();
+    let numbers = Numbers { names: map.channels(), nowhere: DirectionPixel::default(), metadata };
+    output.write_numbers(numbers, |target| Ok(map.pixels(&target.view)))
 }
 
 /// Renders a file's picture and its mip levels over their background.
@@ -94,27 +90,6 @@ pub(crate) fn light(world: BuiltinWorld, view: &View, primaries: &Primaries) -> 
         matrix.convert(image.pixels_mut());
     }
     image
-}
-
-/// Computes the directions of a file's pixels.
-fn pixels(output: &OutputFile, map: DirectionMap) -> Result<Image<DirectionPixel>> {
-    output.job.target.files[output.index]
-        .sheet
-        .assemble(DirectionPixel::default(), |index| Ok(map.pixels(&output.views[index].view)))
-}
-
-/// Writes a map of directions, with a plane for each value of its pixels.
-fn save_map(
-    depth: Depth,
-    map: DirectionMap,
-    pixels: &Image<DirectionPixel>,
-    path: &Path,
-    options: &WriteOptions,
-) -> Result<()> {
-    let plane = |number: usize| pixels.pixels().iter().map(|pixel| pixel[number]).collect();
-    let planes = map.channels().iter().enumerate().map(|(number, name)| (*name, plane(number))).collect();
-    write_planes(path, (pixels.width(), pixels.height()), planes, depth, options)?;
-    Ok(())
 }
 
 #[cfg(test)]

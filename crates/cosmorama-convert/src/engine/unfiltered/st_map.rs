@@ -1,15 +1,12 @@
 //! St maps: the place in the input's file at which each pixel of an output looks.
 
-use std::path::Path;
-
 use cosmorama::camera::Canvas;
-use cosmorama::raster::{Depth, Image};
+use cosmorama::raster::Image;
 use cosmorama::world::{ST_NOWHERE, StPixel};
-use cosmorama_io::{Header, WriteOptions, write_planes};
+use cosmorama_io::{Header, Metadata};
 
 use crate::diagnostic::{Result, ST_MAP, TO, bail};
-use crate::engine::Stage;
-use crate::engine::unfiltered::OutputFile;
+use crate::engine::unfiltered::{Numbers, OutputFile};
 use crate::input::{Input, InputView};
 use crate::job::ConvertJob;
 use crate::packing::Place;
@@ -20,11 +17,8 @@ const CHANNELS: [&str; 3] = ["R", "G", "B"];
 
 /// Writes the st map of a file.
 pub(crate) fn make(output: &OutputFile) -> Result<()> {
-    let OutputFile { job, stages, .. } = *output;
-    let map = |view: usize| st_pixels(job, &output.views[view]);
-    let image = stages.alone(Stage::Filter, || job.target.files[output.index].sheet.assemble(ST_NOWHERE, map))?;
-    let options = WriteOptions { unfinished: output.unfinished.clone(), ..WriteOptions::default() };
-    stages.alone(Stage::Encode, || save(&image, output.path, job.light.depth, &options))
+    let numbers = Numbers { names: &CHANNELS, nowhere: ST_NOWHERE, metadata: Metadata::default() };
+    output.write_numbers(numbers, |target| st_pixels(output.job, target))
 }
 
 /// Computes the places in the input's file at which the pixels of an output look.
@@ -58,11 +52,4 @@ fn canvas_in_file(view: &InputView, header: &Header) -> Canvas {
         None => ((0, 0), (width, height)),
     };
     Canvas { width, height, left: (left + x) as i64, top: (top + y) as i64 }
-}
-
-fn save(image: &Image<StPixel>, path: &Path, depth: Depth, options: &WriteOptions) -> Result<()> {
-    let plane = |number: usize| image.pixels().iter().map(|pixel| pixel[number]).collect();
-    let planes = CHANNELS.iter().enumerate().map(|(number, name)| (*name, plane(number))).collect();
-    write_planes(path, (image.width(), image.height()), planes, depth, options)?;
-    Ok(())
 }

@@ -16,7 +16,7 @@ use cosmorama::raster::{EncodedImage, FramePool};
 
 use crate::codec::interface::{Codec, NumberPlanes, Sink, Source};
 use crate::header::{Header, ImageFile};
-use crate::{Choice, IoError, LayeredImage, Limits, MadeRows, Plane, WriteOptions};
+use crate::{Choice, IoError, LayeredImage, Limits, MadeLayers, MadeRows, Plane, WriteOptions};
 
 /// Codec of OpenEXR.
 pub(crate) struct Exr;
@@ -68,6 +68,16 @@ impl Codec for Exr {
         options: &WriteOptions,
     ) -> Result<(), IoError> {
         writer::write_layers(path, output, layered, options)
+    }
+
+    fn encode_layer_rows(
+        &self,
+        path: &Path,
+        output: Sink<'_>,
+        layers: MadeLayers<'_>,
+        options: &WriteOptions,
+    ) -> Result<(), IoError> {
+        writer::write_layer_rows(path, output, layers, options)
     }
 
     fn encode_planes(

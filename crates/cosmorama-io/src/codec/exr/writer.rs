@@ -1,4 +1,5 @@
 use std::io::{self, Seek, Write};
+use std::ops::Range;
 use std::path::Path;
 
 use cosmorama::raster::{AlphaMode, Channels, Depth, EncodedImage, FramePool, Sample, Samples};
@@ -19,7 +20,8 @@ use rayon::prelude::*;
 
 use super::{attributes, colour};
 use crate::codec::interface::{NumberPlanes, is_beside_others};
-use crate::{Compression, IoError, LayeredImage, MadeRows, Plane, PlaneSamples, WriteOptions};
+use crate::header::visit;
+use crate::{Compression, IoError, LayeredImage, LayeredRows, MadeLayers, MadeRows, Plane, PlaneSamples, WriteOptions};
 
 /// Writes scan lines of premultiplied light, as the format requires.
 pub(crate) fn write(
@@ -35,22 +37,57 @@ pub(crate) fn write(
 pub(super) fn write_rows(
     path: &Path,
     output: impl Write + Seek,
-    mut rows: MadeRows<'_>,
+    rows: MadeRows<'_>,
     options: &WriteOptions,
 ) -> Result<(), IoError> {
-    let size = rows.size;
-    rows.at_once = rows.at_once.next_multiple_of(BLOCK);
-    let planes =
-        |part: &EncodedImage| Ok::<Planes, IoError>(AnyChannels::sort(picture(path, part, &[], options)?).list);
-    let nothing = if rows.depth == Depth::Half { Samples::Half(Vec::new()) } else { Samples::Float(Vec::new()) };
-    let nothing = EncodedImage::new(size.0, 0, rows.channels, rows.depth, nothing);
-    let nothing = nothing.map_err(|error| IoError::write(path, error))?;
-    let headers = described(path, (size, Blocks::ScanLines), planes(&nothing)?, options)?.write().infer_meta_data();
+    let MadeRows { size, channels, depth, at_once, make, .. } = rows;
+    let planes = |part: &EncodedImage| picture(path, part, &[], options);
+    let form = planes(&without_rows(path, size.0, (channels, depth))?)?;
+    write_parts((path, options), output, Parts { size, form, at_once, make }, |part: EncodedImage| planes(&part))
+}
+
+/// Writes scan lines of a picture with named channels beside it, or of such channels alone, whose rows are made meanwhile.
+pub(super) fn write_layer_rows(
+    path: &Path,
+    output: impl Write + Seek,
+    layers: MadeLayers<'_>,
+    options: &WriteOptions,
+) -> Result<(), IoError> {
+    let MadeLayers { size, picture, names, planes, at_once, make } = layers;
+    let picture = picture.map(|form| without_rows(path, size.0, form)).transpose()?;
+    let plane = |(name, kind)| Plane { name, samples: PlaneSamples::zeros(kind, 0) };
+    let all = |picture: Option<&EncodedImage>, planes| layered(path, (picture, &names), planes, options);
+    let form = all(picture.as_ref(), planes.into_iter().map(plane).collect())?;
+    let parts = Parts { size, form, at_once, make };
+    write_parts((path, options), output, parts, |part: LayeredRows| all(part.picture.as_ref(), part.planes))
+}
+
+/// A file of parts, which are made while it is written.
+struct Parts<'a, P> {
+    size: (usize, usize),
+    /// Channels, without samples.
+    form: Planes,
+    /// Rows of a part.
+    at_once: usize,
+    make: &'a mut (dyn FnMut(Range<usize>) -> Option<P> + Send),
+}
+
+/// Writes scan lines of parts, whose channels are those of `planes`.
+fn write_parts<P: Send>(
+    (path, options): (&Path, &WriteOptions),
+    output: impl Write + Seek,
+    Parts { size, form, at_once, make }: Parts<'_, P>,
+    planes: impl Fn(P) -> Result<Planes, IoError>,
+) -> Result<(), IoError> {
+    let described = described(path, (size, Blocks::ScanLines), form, options)?;
+    let headers = described.write().infer_meta_data();
     let written = exr::block::write(output, headers, false, |meta, chunks| {
         let mut blocks = enumerate_ordered_header_block_indices(&meta.headers).peekable();
         let mut top = 0;
-        rows.visit(0..size.1, |part| {
-            let (planes, bottom) = (planes(part).map_err(io::Error::other)?, top + part.height());
+        visit(0..size.1, at_once.next_multiple_of(BLOCK), make, |part| {
+            let planes = AnyChannels::sort(planes(part).map_err(io::Error::other)?).list;
+            let rows = planes.first().map_or(0, |plane| plane.sample_data.len() / size.0.max(1));
+            let bottom = top + rows;
             let mut here = std::iter::from_fn(|| blocks.next_if(|(_, block)| block.pixel_position.y() < bottom));
             let compressed = |(place, block): (usize, BlockIndex)| {
                 Ok((place, filled(&meta.headers, block, (&planes, top))?.compress_to_chunk(&meta.headers)?))
@@ -70,6 +107,12 @@ pub(super) fn write_rows(
         })
     });
     written.map_err(|error| IoError::write(path, error))
+}
+
+/// Returns a picture of that width without rows.
+fn without_rows(path: &Path, width: usize, (channels, depth): (Channels, Depth)) -> Result<EncodedImage, IoError> {
+    let nothing = if depth == Depth::Half { Samples::Half(Vec::new()) } else { Samples::Float(Vec::new()) };
+    EncodedImage::new(width, 0, channels, depth, nothing).map_err(|error| IoError::write(path, error))
 }
 
 /// Returns a block with its samples, from planes that begin with the row `top`.
@@ -148,11 +191,18 @@ pub(super) fn write_layers(
     layered: LayeredImage<'_>,
     options: &WriteOptions,
 ) -> Result<(), IoError> {
-    let LayeredImage { size, picture: image, names, planes } = layered;
-    let mut list = match image {
-        Some(image) => picture(path, image, &names, options)?,
-        None => Planes::new(),
-    };
+    let LayeredImage { size, picture, names, planes } = layered;
+    save_lines(path, output, size, self::layered(path, (picture, &names), planes, options)?, options)
+}
+
+/// Returns the channels of a picture, if there is one, and further ones beside it.
+fn layered(
+    path: &Path,
+    (image, names): (Option<&EncodedImage>, &[String]),
+    planes: Vec<Plane>,
+    options: &WriteOptions,
+) -> Result<Planes, IoError> {
+    let mut list = image.map_or_else(|| Ok(Planes::new()), |image| picture(path, image, names, options))?;
     for Plane { name, samples } in planes {
         let samples = match samples {
             PlaneSamples::Half(samples) => FlatSamples::F16(samples),
@@ -164,7 +214,7 @@ pub(super) fn write_layers(
             list.push(AnyChannel::new(name, samples));
         }
     }
-    save_lines(path, output, size, list, options)
+    Ok(list)
 }
 
 /// Channels of a file.

@@ -147,26 +147,36 @@ fn write_chunks(
 
 /// Returns whether some evenly spaced rows become smaller by fast compression. Noise does not.
 fn pays(picture: &mut Picture<'_, '_>, filter: Filter) -> Result<bool, EncodingError> {
-    let mut sample = Vec::new();
     let (size, form) = (picture.size(), (picture.channels(), picture.depth()));
-    for rows in sampled(size.1) {
-        each_row(picture, rows, |row| {
-            sample.extend_from_slice(row);
-            Ok(())
-        })?;
-    }
-    let bytes = sample.len();
-    let metadata = Metadata::default();
-    let info = info((size, form), &metadata, None)?;
-    let row = info.raw_row_length() - 1;
-    let mut compressed = Vec::new();
-    let mut encoder = Encoder::new(&mut compressed, info.width, dimension(bytes / row)?);
-    encoder.set_color(info.color_type);
-    encoder.set_depth(info.bit_depth);
+    let rows = sampled(size.1).map(|rows| rows.len()).sum();
+    let (metadata, mut compressed) = (Metadata::default(), Counter(0));
+    let info = info(((size.0, rows), form), &metadata, None)?;
+    let bytes = (info.raw_row_length() - 1) as u64 * rows as u64;
+    let mut encoder = Encoder::with_info(&mut compressed, info)?;
     encoder.set_deflate_compression(DeflateCompression::FdeflateUltraFast);
     encoder.set_filter(filter);
-    encoder.write_header()?.write_image_data(&sample)?;
-    Ok(compressed.len() < bytes)
+    let mut writer = encoder.write_header()?;
+    let mut samples = writer.stream_writer_with_size(CHUNK)?;
+    for rows in sampled(size.1) {
+        each_row(picture, rows, |row| Ok(samples.write_all(row)?))?;
+    }
+    samples.finish()?;
+    writer.finish()?;
+    Ok(compressed.0 < bytes)
+}
+
+/// Counts bytes, and drops them.
+struct Counter(u64);
+
+impl Write for Counter {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.0 += bytes.len() as u64;
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
 }
 
 /// Visits the rows of a sample.
