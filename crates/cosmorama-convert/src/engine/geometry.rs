@@ -56,11 +56,10 @@ pub(super) fn partly_anew(kept: usize, all: usize) -> Diagnostic {
 
 impl Geometry {
     /// Compiles the geometry of a job's views in one pose, and returns it with its warnings. It is kept by plans where that
-    /// pays: if the pose `is_repeated`, or serves further channels. So many bytes are `taken` by other geometry.
+    /// pays: if the pose `is_repeated`, or serves further channels.
     pub(crate) fn compile(
         job: &ConvertJob,
         (views, is_repeated): (&[TargetView], bool),
-        taken: u64,
         progress: &dyn Progress,
     ) -> Result<(Self, Vec<Diagnostic>), Stopped> {
         let mut warnings = Vec::new();
@@ -76,7 +75,7 @@ impl Geometry {
         // Balanced pictures need their plan, even if there is only one.
         let is_kept = is_repeated || has_passes(job) || !groups.is_empty();
         let plans = if is_kept {
-            let taken = taken.saturating_add(balance::bytes_of((job, views), &groups, usize::MAX));
+            let taken = balance::bytes_of((job, views), &groups, usize::MAX);
             plans((job, views, is_repeated), (arithmetic, left_for_plans(job, taken)), progress, &mut warnings)?
         } else {
             views.iter().map(|_| None).collect()
@@ -107,7 +106,8 @@ impl Geometry {
         Ok((geometry, Vec::new()))
     }
 
-    /// Compiles the geometry of a strip's views in the pose of the whole, like [`Geometry::compile`].
+    /// Compiles the geometry of a strip's views in the pose of the whole, like [`Geometry::compile`]. So many bytes are `taken` by that of
+    /// other strips.
     pub(crate) fn of_strip(
         (job, whole): (&ConvertJob, &Self),
         (strip, views, is_repeated): (&Strip, &[TargetView], bool),

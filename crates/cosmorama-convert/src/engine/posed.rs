@@ -27,7 +27,7 @@ impl Posed {
         (pose, views, is_repeated): (Option<Pose>, Vec<TargetView>, bool),
         progress: &dyn Progress,
     ) -> Result<(Self, Vec<Diagnostic>), Stopped> {
-        let (geometry, told) = Geometry::compile(job, (&views, is_repeated), 0, progress)?;
+        let (geometry, told) = Geometry::compile(job, (&views, is_repeated), progress)?;
         Ok((Self::of((pose, views), Arc::new(geometry)), told))
     }
 

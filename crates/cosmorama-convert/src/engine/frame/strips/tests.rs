@@ -95,7 +95,7 @@ fn strips_by_any_filter_are_the_picture() {
     for (filter, kernel) in by_strips.chain([("ewa", "light")]) {
         let conversion = Conversion::new(path("sky.exr"), path("view.exr")).from("equirect".parse().unwrap());
         let conversion = conversion.to("equirect:yaw=40,pitch=50,roll=20".parse().unwrap());
-        let mut conversion = conversion.size("10x1100".parse().unwrap()).existing(Existing::Replace);
+        let mut conversion = conversion.size("8x530".parse().unwrap()).existing(Existing::Replace);
         conversion.depth = Some(Depth::Float);
         (conversion.geometry.filter, conversion.geometry.kernel) = (filter.parse().unwrap(), kernel.parse().unwrap());
         let checked = conversion.check().result.unwrap_or_else(|error| panic!("{filter}: {error}"));
@@ -125,7 +125,7 @@ fn strips_by_any_filter_are_the_picture() {
             }
         }
         // Where two texels, or two levels, are equally near, the last digit decides.
-        assert!(others <= 10 * 1100 * 3 / 1000, "{filter}, {kernel}: {others} others, up to {farthest}");
+        assert!(others <= 8 * 530 * 3 / 500, "{filter}, {kernel}: {others} others, up to {farthest}");
     }
 }
 
@@ -147,10 +147,13 @@ fn strips_have_the_channels_of_the_picture() {
     };
     let progress = &|_: f64| ControlFlow::Continue(());
     for (name, picture) in [("all.exr", Some(&picture)), ("numbers.exr", None)] {
-        let all = LayeredImage { size: (128, 64), picture, names: Vec::new(), planes: planes() };
+        // Three colours alone would be the picture.
+        let planes: Vec<Plane> = planes().into_iter().skip(if picture.is_some() { 0 } else { 3 }).collect();
+        let count = planes.len();
+        let all = LayeredImage { size: (128, 64), picture, names: Vec::new(), planes };
         cosmorama_io::write_layers(path(name), all, &WriteOptions::default()).unwrap();
         let conversion = Conversion::new(path(name), path("view.exr")).from("equirect".parse().unwrap());
-        let conversion = conversion.to("equirect:pitch=20,yaw=30".parse().unwrap()).size("40x1100".parse().unwrap());
+        let conversion = conversion.to("equirect:yaw=30".parse().unwrap()).size("20x530".parse().unwrap());
         let checked = conversion.existing(Existing::Replace).check().result.unwrap();
         let engine =
             Engine::new(&checked.job, WriterOptions::default(), progress).unwrap_or_else(|_| panic!("stopped"));
@@ -159,16 +162,16 @@ fn strips_have_the_channels_of_the_picture() {
         let Some(Levels::Layered { planes, .. }) = engine.render(frame, &light, progress).unwrap().pop() else {
             panic!("no channels")
         };
-        assert_eq!(planes.len(), 5, "{name}");
+        assert_eq!(planes.len(), count, "{name}");
         let layer = engine.layer(frame, progress).unwrap();
         let further = &FurtherFiles::new(&checked.job, frame.frame);
         let whole = Whole { frame, light: &light, layer: &layer, moments: None, further, progress };
         let (mut others, mut seen) = (0, 0);
-        for top in (0..1100).step_by(STRIP) {
-            let rows = top..1100.min(top + STRIP);
+        for top in (0..530).step_by(STRIP) {
+            let rows = top..530.min(top + STRIP);
             let made = engine.rows(&whole, 0, rows.clone()).unwrap();
             assert_eq!(made.picture.is_some(), picture.is_some(), "{name}");
-            let here = rows.start * 40..rows.end * 40;
+            let here = rows.start * 20..rows.end * 20;
             for (made, plane) in made.planes.iter().zip(&planes) {
                 assert_eq!((&made.name, made.samples.len()), (&plane.name, here.len()), "{name}");
                 for (at, from) in here.clone().enumerate() {
@@ -178,7 +181,7 @@ fn strips_have_the_channels_of_the_picture() {
                 }
             }
         }
-        assert!(others <= 20 && seen > 50_000, "{name}: {others} others of {seen}");
+        assert!(others <= 20 && seen > count * 2000, "{name}: {others} others of {seen}");
         engine.file_by_strips(&whole, &frame.files[0]).unwrap().appear().unwrap();
         let header = cosmorama_io::probe(path("view.exr")).unwrap();
         let further = header.metadata.layers.further;
