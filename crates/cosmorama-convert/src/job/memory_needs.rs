@@ -7,7 +7,7 @@ use cosmorama::camera::View;
 use cosmorama::filter::FilterKind;
 use cosmorama::projection::ProjectionKind;
 use cosmorama::raster::{FixedLight, Rgba};
-use cosmorama::world::World;
+use cosmorama::world::{StPixel, World};
 use cosmorama_builtin::{DirectionMap, DirectionPixel};
 use cosmorama_io::{Format, Header};
 
@@ -43,6 +43,10 @@ impl Held {
     pub(crate) const fn of_samples(encoded: u64) -> Self {
         Self { is_fixed: false, pixel: size_of::<Rgba>() as u64, encoded }
     }
+
+    /// Maps of places, of which each value becomes a plane.
+    pub(crate) const PLACES: Self =
+        Self { is_fixed: false, pixel: size_of::<StPixel>() as u64, encoded: size_of::<StPixel>() as u64 };
 
     /// Returns maps of directions, of which each value becomes a plane.
     pub(crate) fn directions(map: DirectionMap) -> Self {
@@ -185,16 +189,17 @@ impl FrameNeeds {
     pub(crate) fn by_strips(self, format: Format, sizes: &[(usize, usize)]) -> Self {
         let all = pixels_in(sizes.iter().copied()).max(1);
         let strip = |pictures: u64| (pictures / all).saturating_mul(strip_of(sizes.iter().copied()));
-        // Integers are samples themselves.
-        let samples = if self.encoded == 0 { self.pictures } else { self.encoded };
+        let is_encoded = self.encoded > 0;
+        let samples = if is_encoded { self.encoded } else { self.pictures };
         let largest = sizes.iter().copied().map(area).max().unwrap_or(0);
         let written = if format.takes_rows() { strip(samples) } else { (samples / all).saturating_mul(largest) };
         // OpenEXR sorts those that it writes by channel.
         let sorted = if format == Format::Exr { strip(samples) } else { 0 };
-        let light = strip(self.pictures);
+        // Integers are samples themselves.
+        let light = if is_encoded { strip(self.pictures) } else { 0 };
         Self {
             pictures: sum([written, strip(samples), sorted]),
-            piece: light + light.min(self.piece),
+            piece: light + strip(self.pictures).min(self.piece),
             encoded: 0,
             masks: if self.masks == 0 { 0 } else { strip(all.saturating_mul(2 * MASK)) },
             is_by_strips: true,
@@ -272,6 +277,7 @@ impl ConvertJob {
     pub(crate) fn frame_needs(&self) -> FrameNeeds {
         let held = match self.content {
             Content::Directions(map) => Held::directions(map),
+            Content::StMap => Held::PLACES,
             _ if self.fixed_codec().is_some() => Held::INTEGERS,
             _ => Held::floats(&self.light),
         };

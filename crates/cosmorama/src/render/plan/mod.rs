@@ -264,7 +264,7 @@ fn part_bytes_estimate<F: Format>(resampler: &Resampler, sampling: Sampling) -> 
     };
     let sampled = (0..mirrors.rows.div_ceil(BAND)).into_par_iter().map(bytes);
     let (bytes, rows) = sampled.reduce(|| (0, 0), |a, b| (a.0 + b.0, a.1 + b.1));
-    bytes * mirrors.rows / rows.max(1)
+    bytes * mirrors.rows / rows.max(1) + mirrors.rows.div_ceil(BAND) * size_of::<Band<F>>()
 }
 
 impl<F: Format> Compiled<F> {
@@ -308,7 +308,8 @@ impl<F: Format> Compiled<F> {
     }
 
     fn bytes(&self) -> usize {
-        self.bands.iter().map(Band::bytes).sum()
+        // Of narrow pictures, bands are most of it, though little may be in them.
+        self.bands.capacity() * size_of::<Band<F>>() + self.bands.iter().map(Band::bytes).sum::<usize>()
     }
 }
 
