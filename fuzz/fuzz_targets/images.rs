@@ -6,8 +6,8 @@ use std::io::Cursor;
 use cosmorama::raster::{Channels, Depth, Primaries, Transfer};
 use cosmorama_fuzz::{MEMORY, bytes_of, path, picture, prepare};
 use cosmorama_io::{
-    Choice, Compression, EnvMap, Format, Metadata, Pose, Window, WriteOptions, probe_from, read_from, read_layers,
-    read_pairs_from, write,
+    Choice, Compression, EnvMap, Format, IoError, Metadata, Pose, Window, WriteOptions, check_chosen, probe_from,
+    read_from, read_layers, read_pairs_from, write,
 };
 use libfuzzer_sys::fuzz_target;
 
@@ -16,8 +16,15 @@ const NAME: &str = "picture.tga";
 
 fuzz_target!(init: prepare(seeds), |bytes: &[u8]| {
     let _ = probe_from(Cursor::new(bytes), NAME);
-    if let Ok(file) = read_from(Cursor::new(bytes), NAME, &MEMORY) {
-        drop(file.to_light());
+    let checked = check_chosen(Cursor::new(bytes), NAME, &MEMORY, &Choice::default());
+    match read_from(Cursor::new(bytes), NAME, &MEMORY) {
+        Ok(file) => {
+            assert!(checked.is_ok(), "a check refuses what can be read: {checked:?}");
+            drop(file.to_light());
+        }
+        // A check takes less memory.
+        Err(IoError::TooLarge { .. }) => {}
+        Err(error) => assert!(checked.is_err(), "a check finds whole what cannot be read: {error}"),
     }
     let _ = read_layers(Cursor::new(bytes), NAME, &MEMORY, (&Choice::default(), &["R"]));
     let _ = read_pairs_from(Cursor::new(bytes), NAME, &MEMORY);

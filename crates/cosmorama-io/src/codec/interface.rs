@@ -141,7 +141,8 @@ pub(crate) trait Codec: Sync {
         self.decode(path, source, limits, pool)
     }
 
-    /// Reads a file to its end, and drops its pixels. Codecs that cannot drop them row by row need memory for all.
+    /// Reads a file to its end, and drops its pixels by rows, strips or blocks, of which one must fit into the limits. It fails
+    /// wherever `decode_chosen` fails, but for want of memory. Codecs that cannot read parts need memory for all.
     fn check_chosen(&self, path: &Path, source: Source<'_>, limits: &Limits, choice: &Choice) -> Result<(), IoError> {
         self.decode_chosen(path, source, (limits, &FramePool::default()), choice).map(drop)
     }

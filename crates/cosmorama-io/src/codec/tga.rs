@@ -1,4 +1,4 @@
-use std::io::{self, SeekFrom};
+use std::io::{self, BufReader, Read};
 use std::ops::Range;
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use image::{ColorType, ExtendedColorType, ImageDecoder};
 
 use crate::codec::interface::{Codec, Sink, Source, held, whole_image};
 use crate::header::Picture;
-use crate::{Format, Header, ImageFile, IoError, Limits, MadeRows, Metadata, WriteOptions};
+use crate::{Choice, Format, Header, ImageFile, IoError, Limits, MadeRows, Metadata, WriteOptions};
 
 const FORMAT: Format = Format::Tga;
 
@@ -25,7 +25,7 @@ impl Codec for Tga {
     }
 
     fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
-        let alpha_declared = alpha_bits(path, source)? > 0;
+        let alpha_declared = start(path, source)?[17] & 0x0f > 0;
         let decoder = decoder(path, source)?;
         let mut header = header(path, &decoder)?;
         limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
@@ -40,6 +40,16 @@ impl Codec for Tga {
         whole_image(path, header, Samples::U8(samples))
     }
 
+    fn check_chosen(&self, path: &Path, source: Source<'_>, _: &Limits, _: &Choice) -> Result<(), IoError> {
+        let start = start(path, source)?;
+        // The decoder reads what lies before the pixels, and no byte more.
+        let header = header(path, &decoder(path, &mut *source)?)?;
+        let pixels = Pixels::of(&start, (header.width as u64) * (header.height as u64));
+        pixels
+            .check(&mut BufReader::with_capacity(BUFFER, source))
+            .map_err(|error| IoError::damaged(path, FORMAT, error))
+    }
+
     fn encode(&self, path: &Path, output: Sink<'_>, image: &EncodedImage, _: &WriteOptions) -> Result<(), IoError> {
         write(output, Picture::Held(image)).map_err(|error| IoError::write(path, error))
     }
@@ -51,6 +61,12 @@ impl Codec for Tga {
 
 /// Bytes of the header.
 const HEADER: usize = 18;
+
+/// Number of bytes of pixels that are read at once.
+const BUFFER: usize = 1 << 16;
+
+/// Greatest number of pixels in a packet.
+const PACKET: usize = 128;
 
 /// Place of the number of rows in it.
 const HEIGHT: Range<usize> = 14..16;
@@ -86,12 +102,58 @@ fn decoder<'a>(path: &Path, source: Source<'a>) -> Result<TgaDecoder<Source<'a>>
     TgaDecoder::new(source).map_err(|error| IoError::damaged(path, FORMAT, error))
 }
 
-/// Returns the number of alpha bits that the header declares.
-fn alpha_bits(path: &Path, source: Source<'_>) -> Result<u8, IoError> {
-    let mut start = [0; 18];
+/// Reads the header's bytes, and goes back to the first.
+fn start(path: &Path, source: Source<'_>) -> Result<[u8; HEADER], IoError> {
+    let mut start = [0; HEADER];
     source.read_exact(&mut start).map_err(|_| IoError::damaged(path, FORMAT, "it ends too early"))?;
-    source.seek(SeekFrom::Start(0)).map_err(|error| IoError::open(path, error))?;
-    Ok(start[17] & 0x0f)
+    source.rewind().map_err(|error| IoError::open(path, error))?;
+    Ok(start)
+}
+
+/// Pixels as they lie in a file that the decoder has accepted. It can only read all of them at once.
+struct Pixels {
+    /// Number of pixels. Packets may go on from row to row.
+    count: u64,
+    /// Bytes of each.
+    bytes: usize,
+    are_packed: bool,
+    /// Colours that a map has, if pixels are places in it.
+    colours: Option<Range<usize>>,
+}
+
+impl Pixels {
+    /// Describes the pixels of a header.
+    fn of(start: &[u8; HEADER], count: u64) -> Self {
+        let number = |at: usize| usize::from(u16::from_le_bytes([start[at], start[at + 1]]));
+        let (first, length) = (number(3), number(5));
+        let colours = matches!(start[2], 1 | 9).then_some(first..first + length);
+        Self { count, bytes: usize::from(start[16].div_ceil(8)), are_packed: matches!(start[2], 9..=11), colours }
+    }
+
+    /// Reads all pixels, packet by packet, and drops them.
+    fn check(&self, source: &mut impl Read) -> io::Result<()> {
+        let (mut left, mut packet, mut pixels) = (self.count, [127], [0; 4 * PACKET]);
+        while left > 0 {
+            if self.are_packed {
+                source.read_exact(&mut packet)?;
+            }
+            let (count, is_run) = (u64::from(packet[0] & 127) + 1, packet[0] > 127);
+            let stored = if is_run { 1 } else { count.min(left) as usize };
+            let pixels = &mut pixels[..stored * self.bytes];
+            source.read_exact(pixels)?;
+            self.check_colours(pixels)?;
+            left = left.saturating_sub(count);
+        }
+        Ok(())
+    }
+
+    /// Refuses places outside the map of colours.
+    fn check_colours(&self, pixels: &[u8]) -> io::Result<()> {
+        let Some(colours) = &self.colours else { return Ok(()) };
+        let place = |pixel: &[u8]| pixel.iter().rev().fold(0, |place, byte| place << 8 | usize::from(*byte));
+        let are_inside = pixels.chunks_exact(self.bytes).all(|pixel| colours.contains(&place(pixel)));
+        if are_inside { Ok(()) } else { Err(io::Error::other("a colour outside its map of colours")) }
+    }
 }
 
 fn header(path: &Path, decoder: &impl ImageDecoder) -> Result<Header, IoError> {

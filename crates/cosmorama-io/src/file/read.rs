@@ -137,10 +137,11 @@ pub fn read_chosen(
         .upright(memory.1))
 }
 
-/// Reads a file to its end like [`read_chosen`], and drops its pixels: those of PNG row by row, so that they take no memory.
+/// Reads a file to its end like [`read_chosen`], and drops its pixels. Of PNG, TIFF, OpenEXR, Radiance HDR and TGA a part is held at a
+/// time: a row, or a strip, tile or block as the file has them. Of other formats all pixels are.
 ///
 /// # Errors
-/// When [`read_chosen`] fails; of PNG not because it is large.
+/// When [`read_chosen`] fails; but of those formats not because the picture is large, if `limits` allow its parts.
 pub fn check_chosen(
     mut source: impl BufRead + Seek,
     name: impl AsRef<Path>,

@@ -7,8 +7,8 @@ use std::process::Command;
 use crate::common::{picture, program};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples, Transfer};
 use cosmorama_io::{
-    Choice, EnvMap, LayeredImage, Limits, Metadata, Plane, PlaneSamples, Window, WriteOptions, open, probe, read,
-    read_layers, write, write_layers, write_levels,
+    Choice, EnvMap, LayeredImage, Limits, Metadata, Plane, PlaneSamples, Window, WriteOptions, check_chosen, open,
+    probe, read, read_layers, write, write_layers, write_levels,
 };
 
 fn run(program: &str, arguments: &[&str]) {
@@ -31,6 +31,7 @@ fn through(program: &str, image: &EncodedImage, ours: &Path, theirs: &Path, opti
     }
     arguments.push(theirs.to_str().unwrap());
     run(program, &arguments);
+    check_chosen(open(theirs).unwrap(), theirs, &Limits::default(), &Choice::default()).unwrap();
     read(theirs, &Limits::default()).unwrap().image
 }
 

@@ -2,7 +2,7 @@
 
 use cosmorama::raster::{Channels, Depth, Transfer};
 use cosmorama::sphere::CubeFace;
-use cosmorama_io::{EnvMap, FacePlacement, FaceSet, Limits, probe, read};
+use cosmorama_io::{Choice, EnvMap, FacePlacement, FaceSet, Limits, check_chosen, open, probe, read};
 
 #[test]
 fn every_real_file_is_read() {
@@ -13,6 +13,7 @@ fn every_real_file_is_read() {
         for path in crate::common::files(&folder).into_iter().filter(|path| path.is_file()) {
             let header = probe(&path).unwrap();
             let file = read(&path, &Limits::default()).unwrap();
+            check_chosen(open(&path).unwrap(), &path, &Limits::default(), &Choice::default()).unwrap();
             assert_eq!((file.image.width(), file.image.height()), (header.width, header.height), "{path:?}");
             assert_eq!((file.image.channels(), file.image.depth()), (header.channels, header.depth), "{path:?}");
             let light = file.image.to_light(file.metadata.transfer.as_ref().unwrap_or(&Transfer::Srgb));

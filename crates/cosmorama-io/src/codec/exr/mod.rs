@@ -104,6 +104,10 @@ impl Codec for Exr {
         reader::read(path, source, memory, choice)
     }
 
+    fn check_chosen(&self, path: &Path, source: Source<'_>, limits: &Limits, choice: &Choice) -> Result<(), IoError> {
+        reader::check(path, source, limits, choice)
+    }
+
     fn decode_planes(
         &self,
         path: &Path,

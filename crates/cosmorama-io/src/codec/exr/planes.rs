@@ -6,7 +6,7 @@ use exr::block::lines::LineRef;
 use exr::error::Error;
 
 use super::offer::named;
-use super::reader::{Wanted, announce, block_bytes, damaged, each_block, open};
+use super::reader::{BATCH_BYTES, Wanted, announce, block_bytes, damaged, each_block, open};
 use super::window::Crop;
 use crate::codec::interface::Source;
 use crate::{Choice, IoError, Limits, NamedChannel, Plane, PlaneSamples};
@@ -34,7 +34,7 @@ pub(crate) fn read_planes(
     let mut planes: Vec<Plane> = wanted.iter().map(blank).collect();
     let slot = |channel: &NamedChannel| names.iter().position(|name| *name == channel.name);
     let slots: Vec<_> = channels.iter().map(slot).collect();
-    each_block(reader, selection.part, |block, part| {
+    each_block(reader, selection.part, BATCH_BYTES, |block, part| {
         for line in block.lines(&part.channels) {
             let Some(slot) = slots[line.location.channel] else { continue };
             let Some(row) = crop.row(line.location.position.y()) else { continue };

@@ -37,7 +37,7 @@ const START: usize = 8;
 /// Greatest number of chunks that are decompressed together; enough for all cores.
 const BATCH: usize = 64;
 /// Bytes of these chunks together; a single chunk may have more.
-const BATCH_BYTES: u128 = 1 << 26;
+pub(super) const BATCH_BYTES: u128 = 1 << 26;
 
 /// Reads a file's header for the picture that a choice permits, and for the channels beside it.
 pub(crate) fn probe(path: &Path, source: Source<'_>, choice: &Choice) -> Result<Header, IoError> {
@@ -169,13 +169,42 @@ fn read_selected(
             Samples::Float(pixels(reader, &selection, &crop, float_line, samples).map_err(fail)?)
         }
     };
+    check_behind(path, source)?;
+    let mut file = whole_image(path, header, samples)?;
+    file.image = file.image.with_alpha_mode(AlphaMode::Premultiplied);
+    Ok(file)
+}
+
+/// Reads a file to its end, and drops the pixels of its picture block by block.
+pub(crate) fn check(path: &Path, source: Source<'_>, limits: &Limits, choice: &Choice) -> Result<(), IoError> {
+    attributes::read(path, &mut *source)?;
+    let reader = open(path, &mut *source)?;
+    let (header, selection, _) = announce(path, reader.headers(), Wanted::Picture(choice))?;
+    let part = &reader.headers()[selection.part];
+    let data = DataWindow::of(part);
+    check_block(path, part, &header, limits)?;
+    drop(reader);
+    // All chunks of a file may lie in one place, so that its length alone does not limit what is done.
+    data.check(path, source)?;
+    source.rewind().map_err(|error| IoError::open(path, error))?;
+    // Half for blocks, and half for the chunks of which they are made.
+    let at_once = u128::from(limits.memory / 2).min(BATCH_BYTES);
+    each_block(open(path, &mut *source)?, selection.part, at_once, |block, part| {
+        // Lines that are not in their block are found as they are for a picture.
+        block.lines(&part.channels).for_each(drop);
+        Ok(())
+    })
+    .map_err(|error| damaged(path, error))?;
+    check_behind(path, source)
+}
+
+/// Refuses files that follow the one that has been read.
+fn check_behind(path: &Path, source: Source<'_>) -> Result<(), IoError> {
     let behind = count_behind(source).map_err(|error| IoError::open(path, error))?;
     if behind > 0 {
         return Err(IoError::several(path, FORMAT, 1 + behind, "pictures one behind the other"));
     }
-    let mut file = whole_image(path, header, samples)?;
-    file.image = file.image.with_alpha_mode(AlphaMode::Premultiplied);
-    Ok(file)
+    Ok(())
 }
 
 /// Counts the files that follow one whose last chunk has been read. Bytes that begin no file are harmless padding.
@@ -196,6 +225,12 @@ fn count_behind(source: Source<'_>) -> io::Result<usize> {
 fn check_limits(path: &Path, part: &Part, header: &Header, limits: &Limits) -> Result<(), IoError> {
     let size = (part.layer_size.width() as u64, part.layer_size.height() as u64);
     limits.check(path, size, header.channels, header.depth)?;
+    check_block(path, part, header, limits)
+}
+
+/// Checks the memory for a block of all channels.
+fn check_block(path: &Path, part: &Part, header: &Header, limits: &Limits) -> Result<(), IoError> {
+    let size = (part.layer_size.width() as u64, part.layer_size.height() as u64);
     limits.check_bytes(path, size, header.channels, header.depth, block_bytes(part))
 }
 
@@ -308,14 +343,18 @@ fn pixels<S: Sample>(
     read_line: ReadLine<S>,
     mut samples: Vec<S>,
 ) -> Result<Vec<S>, Error> {
-    each_block(reader, selection.part, |block, part| insert(block, part, selection, crop, read_line, &mut samples))?;
+    each_block(reader, selection.part, BATCH_BYTES, |block, part| {
+        insert(block, part, selection, crop, read_line, &mut samples)
+    })?;
     Ok(samples)
 }
 
-/// Decompresses the blocks of a part, at its largest resolution, and calls `visit` with each.
+/// Decompresses the blocks of a part, at its largest resolution, and calls `visit` with each. Those that are decompressed together
+/// have at most `at_once` bytes, unless a single one has more.
 pub(super) fn each_block(
     reader: Reader<Source<'_>>,
     part: usize,
+    at_once: u128,
     mut visit: impl FnMut(&UncompressedBlock, &Part) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let wanted = |_: &MetaData, tile: TileCoordinates, block: BlockIndex| {
@@ -323,7 +362,7 @@ pub(super) fn each_block(
     };
     let block_bytes = block_bytes(&reader.headers()[part]).max(1);
     let mut chunks = reader.filter_chunks(false, wanted)?;
-    let batch_size = BATCH.min((BATCH_BYTES / block_bytes).clamp(1, BATCH as u128) as usize);
+    let batch_size = BATCH.min((at_once / block_bytes).clamp(1, BATCH as u128) as usize);
     loop {
         let batch = chunks.by_ref().take(batch_size).collect::<Result<Vec<Chunk>, Error>>()?;
         if batch.is_empty() {

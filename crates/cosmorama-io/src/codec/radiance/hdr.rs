@@ -3,11 +3,11 @@ use std::path::Path;
 
 use cosmorama::raster::{Channels, Depth, EncodedImage, FramePool, Primaries, Samples, Transfer};
 
-use super::rgbe;
+use super::rgbe::{self, Rgbe};
 use crate::codec::behind::{next_bytes, skip_padding};
 use crate::codec::interface::{Codec, Sink, Source, held, whole_image};
 use crate::header::Picture;
-use crate::{Format, Header, ImageFile, IoError, Limits, MadeRows, Metadata, WriteOptions};
+use crate::{Choice, Format, Header, ImageFile, IoError, Limits, MadeRows, Metadata, WriteOptions};
 
 const FORMAT: Format = Format::Hdr;
 
@@ -16,6 +16,9 @@ const MARK: [u8; 2] = *b"#?";
 
 /// Number of bytes of pixels that are read at once.
 const BUFFER: usize = 1 << 16;
+
+/// Bytes of a pixel.
+const PIXEL: u128 = size_of::<Rgbe>() as u128;
 
 /// Greatest length of a header line.
 const LONGEST_LINE: u64 = 4096;
@@ -35,24 +38,23 @@ impl Codec for Hdr {
 
     fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
         let Preamble { header, exposure, upside_down } = Preamble::read(path, &mut *source)?;
-        // Pixels are read byte by byte, which is faster from a buffer of known type.
-        let mut source = BufReader::with_capacity(BUFFER, source);
         limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
         let mut samples = pool.take::<f32>(header.width * header.height * 3);
-        let mut line = vec![[0; 4]; header.width];
-        for j in 0..header.height {
-            rgbe::read_line(&mut source, &mut line).map_err(|error| IoError::damaged(path, FORMAT, error))?;
+        each_line(path, source, &header, |j, line| {
             let row = if upside_down { header.height - 1 - j } else { j };
             let row = &mut samples[row * header.width * 3..][..header.width * 3];
-            for (sample, pixel) in row.chunks_exact_mut(3).zip(&line) {
+            for (sample, pixel) in row.chunks_exact_mut(3).zip(line) {
                 sample.copy_from_slice(&rgbe::decode(*pixel).map(|light| light / exposure));
             }
-        }
-        let behind = count_behind(path, &mut source, &mut line).map_err(|error| IoError::open(path, error))?;
-        if behind > 0 {
-            return Err(IoError::several(path, FORMAT, 1 + behind, "pictures one behind the other"));
-        }
+        })?;
         whole_image(path, header, Samples::Float(samples))
+    }
+
+    fn check_chosen(&self, path: &Path, source: Source<'_>, limits: &Limits, _: &Choice) -> Result<(), IoError> {
+        let Preamble { header, .. } = Preamble::read(path, &mut *source)?;
+        let (size, line) = ((header.width as u64, header.height as u64), header.width as u128 * PIXEL);
+        limits.check_bytes(path, size, header.channels, header.depth, line)?;
+        each_line(path, source, &header, |_, _| ())
     }
 
     fn encode(
@@ -99,8 +101,29 @@ fn write(output: Sink<'_>, mut picture: Picture<'_, '_>, metadata: &Metadata) ->
     output.flush()
 }
 
+/// Reads the scan lines behind a header, and calls `visit` with the number and the pixels of each. Refuses pictures behind them.
+fn each_line(
+    path: &Path,
+    source: Source<'_>,
+    header: &Header,
+    mut visit: impl FnMut(usize, &[Rgbe]),
+) -> Result<(), IoError> {
+    // Pixels are read byte by byte, which is faster from a buffer of known type.
+    let mut source = BufReader::with_capacity(BUFFER, source);
+    let mut line = vec![[0; 4]; header.width];
+    for j in 0..header.height {
+        rgbe::read_line(&mut source, &mut line).map_err(|error| IoError::damaged(path, FORMAT, error))?;
+        visit(j, &line);
+    }
+    let behind = count_behind(path, &mut source, &mut line).map_err(|error| IoError::open(path, error))?;
+    if behind > 0 {
+        return Err(IoError::several(path, FORMAT, 1 + behind, "pictures one behind the other"));
+    }
+    Ok(())
+}
+
 /// Counts the pictures that follow one that has been read. Bytes that begin no picture are harmless padding.
-fn count_behind<R: Read + Seek>(path: &Path, source: &mut BufReader<R>, line: &mut Vec<[u8; 4]>) -> io::Result<usize> {
+fn count_behind<R: Read + Seek>(path: &Path, source: &mut BufReader<R>, line: &mut Vec<Rgbe>) -> io::Result<usize> {
     let mut count = 0;
     loop {
         let first = skip_padding(source)?;

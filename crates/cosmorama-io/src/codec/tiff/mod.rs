@@ -11,7 +11,7 @@ use cosmorama::raster::{EncodedImage, FramePool};
 
 use crate::codec::interface::{Codec, Sink, Source};
 use crate::header::{Header, ImageFile, Picture};
-use crate::{IoError, Limits, MadeRows, WriteOptions};
+use crate::{Choice, IoError, Limits, MadeRows, WriteOptions};
 
 /// Codec of TIFF.
 pub(crate) struct Tiff;
@@ -23,6 +23,10 @@ impl Codec for Tiff {
 
     fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
         reader::read(path, source, limits, pool)
+    }
+
+    fn check_chosen(&self, path: &Path, source: Source<'_>, limits: &Limits, _: &Choice) -> Result<(), IoError> {
+        reader::check(path, source, limits)
     }
 
     fn encode(

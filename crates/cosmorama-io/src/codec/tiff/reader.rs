@@ -89,23 +89,79 @@ pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits, pool: &Fram
     let mut header = header(path, &mut decoder)?;
     limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
     let mode = alpha_mode(&mut decoder);
-    // Our own limit has been checked. The decoder's buffers are no larger than the image, or than a strip of it.
-    let mut decoder_limits = tiff::decoder::Limits::default();
-    decoder_limits.decoding_buffer_size = usize::try_from(limits.memory).unwrap_or(usize::MAX);
-    decoder_limits.intermediate_buffer_size = decoder_limits.decoding_buffer_size;
-    let mut decoder = decoder.with_limits(decoder_limits);
+    let mut decoder = decoder.with_limits(within(limits));
     let result = decode(&mut decoder, &header, pool).map_err(|error| damaged(path, &error))?;
     beside(path, &mut decoder)?;
     drop(decoder);
+    check_behind(path, source)?;
+    let pixels = header.width * header.height;
+    let (samples, excess) = samples(path, result, (pixels, header.channels), mode)?;
+    header.metadata.cut_colours = excess.checked(path)?;
+    let mut file = whole_image(path, header, samples)?;
+    file.image = file.image.with_alpha_mode(mode);
+    Ok(file)
+}
+
+/// Reads a file to its end, and drops its samples strip by strip, or tile by tile.
+pub(crate) fn check(path: &Path, source: Source<'_>, limits: &Limits) -> Result<(), IoError> {
+    let mut decoder = opened(path, &mut *source)?;
+    let header = header(path, &mut decoder)?;
+    check_capacity(path, &mut decoder, &header)?;
+    let mode = alpha_mode(&mut decoder);
+    let mut decoder = decoder.with_limits(within(limits));
+    // What is too large to be computed is refused as in a reading.
+    decoder.image_buffer_layout().map_err(|error| damaged(path, &error))?;
+    let mut excess = Excess::default();
+    for index in 0..count_chunks(&decoder, &header) {
+        let of_chunk = check_chunk(path, &mut decoder, index, (&header, limits, mode))?;
+        excess.partial += of_chunk.partial;
+        excess.above += of_chunk.above;
+    }
+    excess.checked(path)?;
+    beside(path, &mut decoder)?;
+    drop(decoder);
+    check_behind(path, source)
+}
+
+/// Returns the number of strips or tiles, which all have the samples of all channels: planes are refused.
+fn count_chunks(decoder: &Decoder<Source<'_>>, header: &Header) -> u32 {
+    let (width, height) = decoder.chunk_dimensions();
+    let [across, down] = [(header.width, width), (header.height, height)].map(|(all, one)| (all as u32).div_ceil(one));
+    across * down
+}
+
+/// Reads a strip or a tile, unless it needs more memory than `limits` allow.
+fn check_chunk(
+    path: &Path,
+    decoder: &mut Decoder<Source<'_>>,
+    index: u32,
+    (header, limits, mode): (&Header, &Limits, AlphaMode),
+) -> Result<Excess, IoError> {
+    let fail = |error: TiffError| damaged(path, &error);
+    let needed = decoder.image_chunk_buffer_layout(index).map_err(fail)?.complete_len;
+    let size = (header.width as u64, header.height as u64);
+    limits.check_bytes(path, size, header.channels, header.depth, needed as u128)?;
+    let result = decoder.read_chunk(index).map_err(fail)?;
+    let (width, height) = decoder.chunk_data_dimensions(index);
+    let pixels = width as usize * height as usize;
+    samples(path, result, (pixels, header.channels), mode).map(|(_, excess)| excess)
+}
+
+/// Refuses files that follow the one that has been read.
+fn check_behind(path: &Path, source: Source<'_>) -> Result<(), IoError> {
     let behind = extent::count_behind(source).map_err(|error| IoError::open(path, error))?;
     if behind > 0 {
         return Err(IoError::several(path, FORMAT, 1 + behind, "pictures one behind the other"));
     }
-    let (samples, cut_colours) = samples(path, result, &header, mode)?;
-    header.metadata.cut_colours = cut_colours;
-    let mut file = whole_image(path, header, samples)?;
-    file.image = file.image.with_alpha_mode(mode);
-    Ok(file)
+    Ok(())
+}
+
+/// Returns the decoder's own limits. Ours have been checked, and its buffers are no larger than the image, or than a strip of it.
+fn within(limits: &Limits) -> tiff::decoder::Limits {
+    let mut own = tiff::decoder::Limits::default();
+    own.decoding_buffer_size = usize::try_from(limits.memory).unwrap_or(usize::MAX);
+    own.intermediate_buffer_size = own.decoding_buffer_size;
+    own
 }
 
 /// Decodes all samples. Memory comes from a pool if the file holds only the channels of the header, in their own type.
@@ -193,39 +249,43 @@ fn alpha_mode(decoder: &mut Decoder<Source<'_>>) -> AlphaMode {
     }
 }
 
-/// Returns the samples, and the number of pixels whose colours were cut.
-fn samples(path: &Path, result: DecodingResult, header: &Header, mode: AlphaMode) -> Result<(Samples, usize), IoError> {
-    let multiplied = mode == AlphaMode::Premultiplied && header.channels.has_alpha();
-    let mut cut = 0;
+/// Returns the samples of so many pixels, and how many of these have colours above their alpha.
+fn samples(
+    path: &Path,
+    result: DecodingResult,
+    (pixels, channels): (usize, Channels),
+    mode: AlphaMode,
+) -> Result<(Samples, Excess), IoError> {
+    let multiplied = mode == AlphaMode::Premultiplied && channels.has_alpha();
+    let mut excess = Excess::default();
     let samples = match result {
         DecodingResult::U8(samples) => {
-            let mut samples = chosen(path, samples, header)?;
+            let mut samples = chosen(path, samples, pixels, channels)?;
             if multiplied {
-                cut = divide_by_alpha(path, &mut samples, header.channels)?;
+                excess = divide_by_alpha(&mut samples, channels);
             }
             Samples::U8(samples)
         }
         DecodingResult::U16(samples) => {
-            let mut samples = chosen(path, samples, header)?;
+            let mut samples = chosen(path, samples, pixels, channels)?;
             if multiplied {
-                cut = divide_by_alpha(path, &mut samples, header.channels)?;
+                excess = divide_by_alpha(&mut samples, channels);
             }
             Samples::U16(samples)
         }
-        DecodingResult::F16(samples) => Samples::Half(chosen(path, samples, header)?),
-        DecodingResult::F32(samples) => Samples::Float(chosen(path, samples, header)?),
+        DecodingResult::F16(samples) => Samples::Half(chosen(path, samples, pixels, channels)?),
+        DecodingResult::F32(samples) => Samples::Float(chosen(path, samples, pixels, channels)?),
         DecodingResult::F64(samples) => {
-            Samples::Float(chosen(path, samples, header)?.into_iter().map(|sample| sample as f32).collect())
+            Samples::Float(chosen(path, samples, pixels, channels)?.into_iter().map(|sample| sample as f32).collect())
         }
         _ => return Err(IoError::unsupported(path, FORMAT, "another sample type than it said", EXPECTED)),
     };
-    Ok((samples, cut))
+    Ok((samples, excess))
 }
 
 /// Returns the samples of the selected channels; a pixel may have more.
-fn chosen<S: Copy>(path: &Path, samples: Vec<S>, header: &Header) -> Result<Vec<S>, IoError> {
-    let pixels = header.width * header.height;
-    let count = header.channels.count();
+fn chosen<S: Copy>(path: &Path, samples: Vec<S>, pixels: usize, channels: Channels) -> Result<Vec<S>, IoError> {
+    let count = channels.count();
     let stride = samples.len().checked_div(pixels).unwrap_or(0);
     if stride < count || stride * pixels != samples.len() {
         return Err(IoError::unsupported(path, FORMAT, "samples of less than 8 bits", EXPECTED));
@@ -236,13 +296,32 @@ fn chosen<S: Copy>(path: &Path, samples: Vec<S>, header: &Header) -> Result<Vec<
     Ok(samples.chunks_exact(stride).flat_map(|pixel| pixel[..count].iter().copied()).collect())
 }
 
-/// Divides integer colours by alpha, because integers are straight in memory. Colours that exceed alpha are cut to white; returns
-/// the number of such pixels. Refuses pictures in which they are most of what is partly transparent.
-fn divide_by_alpha<S: Copy + Into<u32> + TryFrom<u32>>(
-    path: &Path,
-    samples: &mut [S],
-    channels: Channels,
-) -> Result<usize, IoError> {
+/// Numbers of pixels by which a picture that says it is premultiplied is judged.
+#[derive(Clone, Copy, Default)]
+struct Excess {
+    /// Pixels that are partly transparent.
+    partial: usize,
+    /// Pixels of these whose colours exceed their alpha.
+    above: usize,
+}
+
+impl Excess {
+    /// Returns the number of pixels whose colours were cut. Refuses pictures in which they are most of what is partly transparent.
+    fn checked(self, path: &Path) -> Result<usize, IoError> {
+        let Self { partial, above } = self;
+        if 2 * above > partial {
+            let found = format!(
+                "it says that colours are premultiplied, but colour exceeds alpha in {above} of {partial} pixels that are partly \
+                 transparent; say that alpha is straight (ExtraSamples 2), or write the file again with premultiplied colours"
+            );
+            return Err(IoError::damaged(path, FORMAT, found));
+        }
+        Ok(above)
+    }
+}
+
+/// Divides integer colours by alpha, because integers are straight in memory. Colours that exceed alpha are cut to white.
+fn divide_by_alpha<S: Copy + Into<u32> + TryFrom<u32>>(samples: &mut [S], channels: Channels) -> Excess {
     let full = (1_u32 << (8 * size_of::<S>())) - 1;
     let (mut partial, mut above) = (0, 0);
     for pixel in samples.chunks_exact_mut(channels.count()) {
@@ -260,12 +339,5 @@ fn divide_by_alpha<S: Copy + Into<u32> + TryFrom<u32>>(
             *sample = S::try_from(straight).unwrap_or(*sample);
         }
     }
-    if 2 * above > partial {
-        let found = format!(
-            "it says that colours are premultiplied, but colour exceeds alpha in {above} of {partial} pixels that are partly \
-             transparent; say that alpha is straight (ExtraSamples 2), or write the file again with premultiplied colours"
-        );
-        return Err(IoError::damaged(path, FORMAT, found));
-    }
-    Ok(above)
+    Excess { partial, above }
 }

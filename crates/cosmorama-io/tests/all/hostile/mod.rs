@@ -1,5 +1,6 @@
 //! Files are hostile: errors, never panics, and no memory for what is only declared.
 
+mod checks;
 mod texts;
 
 use std::path::Path;
