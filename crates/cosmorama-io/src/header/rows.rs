@@ -43,7 +43,7 @@ pub struct MadeLayers<'a> {
 pub struct LayeredRows {
     /// Rows of the picture, if there is one.
     pub picture: Option<EncodedImage>,
-    /// The same rows of the further channels.
+    /// Further channels in the same rows.
     pub planes: Vec<Plane>,
 }
 

@@ -22,7 +22,7 @@ use crate::world::{SolidAngles, World};
 pub struct LightBalance {
     /// Factors of the texels.
     texels: Vec<f32>,
-    /// Those of the step before, from which the factors of pixels follow.
+    /// Factors of the texels in the step before, from which those of pixels follow.
     before: Vec<f32>,
 }
 
