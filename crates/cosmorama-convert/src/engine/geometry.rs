@@ -75,7 +75,7 @@ impl Geometry {
         // Balanced pictures need their plan, even if there is only one.
         let is_kept = is_repeated || has_passes(job) || !groups.is_empty();
         let plans = if is_kept {
-            let taken = balance::bytes_of((job, views), &groups, usize::MAX);
+            let taken = balance::bytes_of((job, views), &groups);
             plans((job, views, is_repeated), (arithmetic, left_for_plans(job, taken)), progress, &mut warnings)?
         } else {
             views.iter().map(|_| None).collect()
@@ -99,7 +99,7 @@ impl Geometry {
             return Ok((geometry, Vec::new()));
         }
         let strip = strip_bytes(job, views);
-        if left_for_plans(job, balance::bytes_of((job, views), &groups, STRIP)) < strip {
+        if left_for_plans(job, balance::bytes_by_strips((job, views), &groups)) < strip {
             return Ok((geometry, vec![unbalanced()]));
         }
         (geometry.balance, geometry.strip) = (Balance::by_strips((job, views), groups, progress)?, strip);
@@ -232,7 +232,7 @@ pub(super) fn balance_bytes(job: &ConvertJob) -> u64 {
     let views = &job.target.views[..];
     let groups = balance::groups(job, views);
     let strip = if groups.is_empty() { 0 } else { strip_bytes(job, views) };
-    balance::bytes_of((job, views), &groups, STRIP).saturating_add(strip)
+    balance::bytes_by_strips((job, views), &groups).saturating_add(strip)
 }
 
 /// Returns the bytes of the plan of a strip, with which further channels are filtered.

@@ -101,13 +101,19 @@ fn is_balanced(filter: &FilterSettings) -> bool {
 
 /// Returns whether pictures are made without all of them: those that are too large to be held, and maps, each of whose pixels stands for
 /// itself. The passes of two-pass run through whole columns, and maps of light are measured when they are made.
-fn may_be_by_strips((target, content): (&Target, Content), filter: &FilterSettings, is_lit: bool) -> bool {
+fn may_be_by_strips(
+    (target, content): (&Target, Content),
+    filter: &FilterSettings,
+    (is_lit, has_shutter): (bool, bool),
+) -> bool {
+    // Each moment would have a balance of its own.
+    let has_balances = has_shutter && is_balanced(filter);
     let is_local = match content {
         Content::World => filter.kind != FilterKind::Classic(Classic::TwoPass),
         Content::Formula(_) => true,
         Content::StMap | Content::Directions(_) => return true,
     };
-    is_large(target) && is_local && !is_lit && !target.format.is_video()
+    is_large(target) && is_local && !has_balances && !is_lit && !target.format.is_video()
 }
 
 /// Returns the source of a conversion's files, which knows the parts and channels to read.
@@ -224,8 +230,8 @@ impl ConvertJob {
         } else {
             LayerPlan::default()
         };
-        let is_balanced = is_balanced(&filter) && geometry.blur.is_some();
-        let is_by_strips = !is_balanced && may_be_by_strips((&target, content), &filter, lighting.is_some());
+        let kind = (lighting.is_some(), movement.as_ref().is_some_and(|movement| movement.blur.is_some()));
+        let is_by_strips = may_be_by_strips((&target, content), &filter, kind);
         let backdrop = backdrop.map(|job| job.lie_behind(&light, is_by_strips)).transpose()?.map(|job| {
             let (job, left) = job.share(memory);
             memory = left;
@@ -391,11 +397,9 @@ impl ConvertJob {
     pub(crate) fn is_by_strips(&self) -> bool {
         // Integers are samples, which are held for a format that is written as a whole.
         let is_of_use = self.target.format.takes_rows() || self.fixed_codec().is_none();
-        // Each moment would have a balance of its own.
-        let is_blurred = self.movement.as_ref().is_some_and(|movement| movement.blur.is_some());
-        let can_be = !(is_blurred && self.is_balance_asked_for());
-        let target = (&self.target, self.content);
-        is_of_use && can_be && !self.is_behind_whole && may_be_by_strips(target, &self.filter, self.lighting.is_some())
+        let has_shutter = self.movement.as_ref().is_some_and(|movement| movement.blur.is_some());
+        let kind = (self.lighting.is_some(), has_shutter);
+        is_of_use && !self.is_behind_whole && may_be_by_strips((&self.target, self.content), &self.filter, kind)
     }
 
     /// Returns whether pixels of a strip depend on those beside it, whatever the light: where views end, neighbours decide what becomes of

@@ -265,10 +265,16 @@ mod tests {
                 Some(LayeredRows { picture: picture.map(part), planes: planes(rows.clone()) })
             };
             let picture = picture.map(|image| (image.channels(), image.depth()));
-            let (names, planes) = (Vec::new(), kinds.to_vec());
-            let layers = MadeLayers { size: SIZE, picture, names, planes, at_once: 500, make };
+            let named = || (SIZE, Vec::new(), kinds.to_vec());
+            let (size, names, kinds) = named();
+            let layers = MadeLayers { size, picture, names, planes: kinds, at_once: 500, make };
             write_layer_rows_hidden(&by_rows, layers, &WriteOptions::default()).unwrap().appear().unwrap();
             assert!(std::fs::read(&whole).unwrap() == std::fs::read(&by_rows).unwrap(), "{picture:?}");
+            // Rows without their labels.
+            let make = &mut |rows: Range<usize>| Some(LayeredRows { picture: None, planes: planes(rows).split_off(1) });
+            let (size, names, kinds) = named();
+            let layers = MadeLayers { size, picture: None, names, planes: kinds, at_once: 500, make };
+            assert!(write_layer_rows_hidden(&by_rows, layers, &WriteOptions::default()).is_err());
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::pictures::Engine;
 use crate::diagnostic::{Decision, Topic};
-use crate::engine::geometry::bytes_of_passes;
+use crate::engine::geometry::{balance_bytes, bytes_of_passes};
 use crate::job::{QueueDepth, program_bytes, with_reserve};
 use crate::source::lock;
 use crate::source::memory_budget::human;
@@ -29,8 +29,12 @@ impl Engine<'_> {
     /// Returns the memory that the run needs in all, about and at most.
     pub(crate) fn estimated_bytes(&self) -> u64 {
         let (job, threads) = (self.job, rayon::current_num_threads());
-        let kept = lock(&self.posed).as_ref().map_or(0, |posed| posed.geometry.bytes()) + self.strips.bytes();
-        let geometry = kept + if job.is_by_strips() { bytes_of_passes(job) } else { 0 };
+        let posed = lock(&self.posed).as_ref().map(|posed| posed.geometry.bytes());
+        let geometry = if job.is_by_strips() {
+            posed.unwrap_or_else(|| balance_bytes(job)) + self.strips.bytes() + bytes_of_passes(job)
+        } else {
+            posed.unwrap_or(0)
+        };
         if !job.outputs.are_many() {
             return job.estimated_bytes(threads).saturating_add(with_reserve(geometry));
         }

@@ -15,7 +15,7 @@ use crate::engine::frame::behind::Behind;
 use crate::engine::frame::blur::FramePart;
 use crate::engine::frame::fill::counted;
 use crate::engine::frame::strips::KeptStrips;
-use crate::engine::geometry::{arithmetic, balance_bytes};
+use crate::engine::geometry::{arithmetic, balance_bytes, bytes_of_passes};
 use crate::engine::unfiltered::formula;
 use crate::engine::{
     BalancedLight, FrameLight, FurtherFiles, LayerPass, Levels, LightMaps, LightReport, Posed, Shares, Texels,
@@ -92,9 +92,10 @@ impl<'a> Engine<'a> {
             None => KeptStrips::default(),
         };
         let geometry = match &posed {
-            None if is_by_strips => balance_bytes(job),
+            None if is_by_strips => balance_bytes(job) + bytes_of_passes(job),
             None => bytes_while_moving(job),
-            Some(posed) => posed.geometry.bytes() + strips.bytes(),
+            Some(posed) if is_by_strips => posed.geometry.bytes() + strips.bytes() + bytes_of_passes(job),
+            Some(posed) => posed.geometry.bytes(),
         };
         let threads = rayon::current_num_threads();
         let mut queue_depth = job.memory.queue_depth(job.frame_needs(), job.target.files.len(), geometry, threads);

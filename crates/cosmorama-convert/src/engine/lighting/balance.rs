@@ -50,13 +50,20 @@ pub(crate) fn groups(job: &ConvertJob, targets: &[TargetView]) -> Vec<Vec<usize>
     groups
 }
 
-/// Returns the bytes that the balance of these groups takes, of whose views so many rows are made at once.
-pub(crate) fn bytes_of((job, targets): (&ConvertJob, &[TargetView]), groups: &[Vec<usize>], rows: usize) -> u64 {
-    let pixels = |index: &usize| {
-        let view = &targets[*index].view;
-        view.width() as u64 * view.height().min(rows) as u64
-    };
+/// Returns the bytes that the balance of these groups takes.
+pub(crate) fn bytes_of((job, targets): (&ConvertJob, &[TargetView]), groups: &[Vec<usize>]) -> u64 {
+    let pixels = |index: &usize| targets[*index].view.width() as u64 * targets[*index].view.height() as u64;
     let bytes = |group: &Vec<usize>| LightBalance::bytes(job.world(&targets[group[0]]), group.iter().map(pixels).sum());
+    groups.iter().map(bytes).sum()
+}
+
+/// Returns the bytes that the balance of these groups takes, of which a strip of one view is made at once.
+pub(crate) fn bytes_by_strips((job, targets): (&ConvertJob, &[TargetView]), groups: &[Vec<usize>]) -> u64 {
+    // Views of a group have one size.
+    let bytes = |group: &Vec<usize>| {
+        let first = &targets[group[0]];
+        LightBalance::bytes(job.world(first), first.view.width() as u64 * first.view.height().min(STRIP) as u64)
+    };
     groups.iter().map(bytes).sum()
 }
 
@@ -72,7 +79,7 @@ impl Balance {
             let planned: Vec<_> = indices.iter().map(plan).collect::<Option<_>>()?;
             let balance = LightBalance::new(job.world(&targets[indices[0]]), &planned);
             let pixels = planned.iter().map(|(plan, _)| balance.pixels(plan)).collect();
-            let bytes = bytes_of((job, targets), std::slice::from_ref(&indices), usize::MAX);
+            let bytes = bytes_of((job, targets), std::slice::from_ref(&indices));
             Some(Group { views: indices, balance: Arc::new(balance), pixels, bytes })
         };
         Self(groups.into_iter().filter_map(balanced).collect())
@@ -105,7 +112,7 @@ impl Balance {
                 }
                 Ok(())
             })?;
-            let bytes = bytes_of((job, targets), std::slice::from_ref(&indices), STRIP);
+            let bytes = bytes_by_strips((job, targets), std::slice::from_ref(&indices));
             Ok(Group { views: indices, balance: Arc::new(balance), pixels: Vec::new(), bytes })
         };
         Ok(Self(groups.into_iter().enumerate().map(balanced).collect::<Result<_, Stopped>>()?))

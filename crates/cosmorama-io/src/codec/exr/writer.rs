@@ -11,7 +11,7 @@ use exr::image::write::WritableImage;
 use exr::image::write::samples::WritableSamples;
 use exr::image::{AnyChannel, AnyChannels, Blocks, Encoding, FlatSamples, Image, Layer, Levels};
 use exr::math::{RoundingMode, Vec2};
-use exr::meta::attribute::Text;
+use exr::meta::attribute::{SampleType, Text};
 use exr::meta::header::Header;
 use exr::meta::mip_map_levels;
 use exr::prelude::SmallVec;
@@ -88,6 +88,9 @@ fn write_parts<P: Send>(
             let planes = AnyChannels::sort(planes(part).map_err(io::Error::other)?).list;
             let rows = planes.first().map_or(0, |plane| plane.sample_data.len() / size.0.max(1));
             let bottom = top + rows;
+            if !are_as_described(&meta.headers, &planes, rows * size.0) {
+                return Err(io::Error::other("rows of other channels, or of other sizes, than was said").into());
+            }
             let mut here = std::iter::from_fn(|| blocks.next_if(|(_, block)| block.pixel_position.y() < bottom));
             let compressed = |(place, block): (usize, BlockIndex)| {
                 Ok((place, filled(&meta.headers, block, (&planes, top))?.compress_to_chunk(&meta.headers)?))
@@ -107,6 +110,19 @@ fn write_parts<P: Send>(
         })
     });
     written.map_err(|error| IoError::write(path, error))
+}
+
+/// Returns whether planes are those of the header, with so many samples each.
+fn are_as_described(headers: &[Header], planes: &Planes, samples: usize) -> bool {
+    let kind = |samples: &FlatSamples| match samples {
+        FlatSamples::F16(_) => SampleType::F16,
+        FlatSamples::F32(_) => SampleType::F32,
+        FlatSamples::U32(_) => SampleType::U32,
+    };
+    let described = headers.iter().flat_map(|header| &header.channels.list);
+    let found = planes.iter().map(|plane| (&plane.name, kind(&plane.sample_data)));
+    planes.iter().all(|plane| plane.sample_data.len() == samples)
+        && described.map(|channel| (&channel.name, channel.sample_type)).eq(found)
 }
 
 /// Returns a picture of that width without rows.

@@ -13,7 +13,7 @@ use cosmorama_io::{LayeredRows, Plane};
 use super::blur::FramePart;
 use super::pictures::{Engine, Layer, Making};
 use crate::diagnostic::{ConvertError, Diagnostic, Result, failure};
-use crate::engine::geometry::partly_anew;
+use crate::engine::geometry::{bytes_of_passes, partly_anew};
 use crate::engine::{BalancedLight, FrameLight, FrameWords, FurtherFiles, Geometry, LayerPass, Levels, Posed, Shares};
 use crate::job::{ConvertJob, FrameOutputs, STRIP, with_reserve};
 use crate::target::{Strip, TargetFile};
@@ -47,7 +47,8 @@ impl KeptStrips {
     ) -> Result<(Self, Vec<Diagnostic>), Stopped> {
         let (mut kept, mut told, mut all) = (Self::default(), Vec::new(), 0);
         let pixels: usize = job.target.files.iter().map(|file| area(file.sheet.size)).sum();
-        let (mut bytes, mut done) = (0, 0);
+        // Strips that are not kept need room for their plan.
+        let (mut bytes, mut done) = (bytes_of_passes(job), 0);
         for (file, TargetFile { sheet, .. }) in job.target.files.iter().enumerate() {
             let mut strips = Vec::new();
             for top in (0..sheet.size.1).step_by(STRIP) {
@@ -163,11 +164,15 @@ impl Engine<'_> {
         // What is blurred has geometry of its own.
         let is_filtered = whole.moments.is_none() && !layers.leaves_picture_out();
         let times = if is_filtered { self.layers() } else { 0 } + layers.groups.len();
-        let mut making = (times > 0).then(|| self.making(whole, &strip, times)).transpose()?;
+        let end = if whole.moments.is_some() { 1.0 / (1 + layers.groups.len()) as f64 } else { 0.0 };
+        let blurred = Share { whole: whole.progress, from: 0.0, to: end };
+        let rest = Share { from: end, to: 1.0, ..blurred };
+        let mut making = (times > 0).then(|| self.making(whole.layer, (&strip, times), &rest)).transpose()?;
         let picture = if layers.leaves_picture_out() {
             None
         } else {
-            Some(self.picture_of(whole, (&strip, wanted.clone()), making.as_mut())?)
+            let whole = Whole { progress: &blurred, ..*whole };
+            Some(self.picture_of(&whole, (&strip, wanted.clone()), making.as_mut())?)
         };
         let wanted = wanted.start * width..wanted.end * width;
         let part = |plane: Plane| Plane { samples: plane.samples.part(wanted.clone()), ..plane };
@@ -176,10 +181,15 @@ impl Engine<'_> {
     }
 
     /// Prepares to filter the views of a strip so many times.
-    fn making<'p>(&self, whole: &Whole<'p>, strip: &Strip, times: usize) -> Result<Making<'p>> {
+    fn making<'p>(
+        &self,
+        whole: &Layer,
+        (strip, times): (&Strip, usize),
+        progress: &'p dyn Progress,
+    ) -> Result<Making<'p>> {
         let views = strip.views(&self.job.target.views);
         let all = views.iter().map(|target| &target.view).cycle().take(views.len() * times);
-        Ok(Making { layer: self.layer_of_strip(whole.layer, strip)?, shares: Shares::new(whole.progress, all) })
+        Ok(Making { layer: self.layer_of_strip(whole, strip)?, shares: Shares::new(progress, all) })
     }
 
     /// Makes the samples of a strip's wanted rows.
@@ -236,7 +246,8 @@ impl Engine<'_> {
             // What is told of the geometry is told of the whole.
             None => {
                 let own = (self.job, &*whole.posed.geometry);
-                let own = Geometry::of_strip(own, (strip, &views, false), 0, &|_: f64| ControlFlow::Continue(()));
+                let kept = self.strips.bytes();
+                let own = Geometry::of_strip(own, (strip, &views, false), kept, &|_: f64| ControlFlow::Continue(()));
                 Posed::of((pose, views), Arc::new(own.map_err(|Stopped| self.stopped())?.0))
             }
         };
