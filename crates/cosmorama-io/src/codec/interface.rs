@@ -4,7 +4,7 @@ use std::io::{BufRead, Seek, SeekFrom, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-use cosmorama::raster::{Depth, EncodedImage, FramePool, Samples};
+use cosmorama::raster::{EncodedImage, FramePool, Samples};
 
 use crate::header::{Header, ImageFile};
 use crate::{Choice, Format, IoError, LayeredImage, Limits, MadeLayers, MadeRows, Plane, WriteOptions};
@@ -26,16 +26,6 @@ pub(crate) type Source<'a> = &'a mut (dyn ReadSeek + 'a);
 
 /// Writer for an encoder, positioned where the file's first byte goes.
 pub(crate) type Sink<'a> = &'a mut (dyn WriteSeek + 'a);
-
-/// Named planes of numbers, which are no picture.
-pub(crate) struct NumberPlanes<'a> {
-    /// Columns and rows of each.
-    pub(crate) size: (usize, usize),
-    /// Name and numbers of each, row by row.
-    pub(crate) planes: Vec<(&'a str, Vec<f32>)>,
-    /// Halves or floats.
-    pub(crate) depth: Depth,
-}
 
 /// Decoder and encoder of a file format. `path` is the file's name in messages.
 pub(crate) trait Codec: Sync {
@@ -109,17 +99,6 @@ pub(crate) trait Codec: Sync {
         path: &Path,
         _output: Sink<'_>,
         _layers: MadeLayers<'_>,
-        _options: &WriteOptions,
-    ) -> Result<(), IoError> {
-        Err(IoError::write(path, "the format names no channels"))
-    }
-
-    /// Writes named planes of numbers. Called only for OpenEXR.
-    fn encode_planes(
-        &self,
-        path: &Path,
-        _output: Sink<'_>,
-        _planes: NumberPlanes<'_>,
         _options: &WriteOptions,
     ) -> Result<(), IoError> {
         Err(IoError::write(path, "the format names no channels"))

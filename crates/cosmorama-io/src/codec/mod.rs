@@ -27,7 +27,7 @@ use std::path::Path;
 
 pub use interface::ReadSeek;
 pub use interface::is_contained;
-pub(crate) use interface::{Codec, NumberPlanes, Source, contained, is_beside_others};
+pub(crate) use interface::{Codec, Source, contained, is_beside_others};
 pub use write_options::{Compression, WriteOptions};
 
 use crate::IoError;

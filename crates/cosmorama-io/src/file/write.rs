@@ -2,11 +2,12 @@ use std::io::{Seek, Write};
 use std::path::Path;
 
 use cosmorama::raster::{Channels, Depth, EncodedImage};
+use half::f16;
 
-use crate::codec::{NumberPlanes, codec};
+use crate::codec::codec;
 use crate::header::Format;
 use crate::pending::{Hidden, Pending};
-use crate::{IoError, LayeredImage, MadeLayers, MadeRows, WriteOptions};
+use crate::{IoError, LayeredImage, MadeLayers, MadeRows, Plane, PlaneSamples, WriteOptions};
 
 /// Writes a file in the format of its extension. It appears whole or not at all: an older file of the same name is
 /// replaced only when the new one is complete.
@@ -139,9 +140,13 @@ pub fn write_planes(
     if let Some((name, plane)) = planes.iter().find(|(_, plane)| size.0.checked_mul(size.1) != Some(plane.len())) {
         return cannot_hold(format!("{} numbers in {name}", plane.len()), format!("{}x{}", size.0, size.1));
     }
-    let mut pending = Pending::create(path, &options.unfinished)?;
-    codec(path, format)?.encode_planes(path, pending.writer(), NumberPlanes { size, planes, depth }, options)?;
-    pending.finish()
+    let samples = |numbers: Vec<f32>| match depth {
+        Depth::Half => PlaneSamples::Half(numbers.into_iter().map(f16::from_f32).collect()),
+        _ => PlaneSamples::Float(numbers),
+    };
+    let plane = |(name, numbers): (&str, Vec<f32>)| Plane { name: name.to_owned(), samples: samples(numbers) };
+    let planes = planes.into_iter().map(plane).collect();
+    write_layers(path, LayeredImage { size, picture: None, names: Vec::new(), planes }, options)
 }
 
 /// Writes a picture with named channels beside it, or such channels alone, like [`write()`].

@@ -69,7 +69,7 @@ impl PlaneSamples {
     #[must_use]
     pub fn part(self, range: Range<usize>) -> Self {
         fn of<S>(mut samples: Vec<S>, Range { start, end }: Range<usize>) -> Vec<S> {
-            samples.truncate(end);
+            samples.drain(end..);
             samples.drain(..start);
             samples
         }

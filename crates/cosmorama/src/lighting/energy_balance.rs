@@ -77,7 +77,7 @@ impl LightBalance {
     /// once for each of the [`STEPS`](LightBalance::STEPS).
     ///
     /// # Errors
-    /// Those of `each`.
+    /// Whatever `each` returns as an error.
     pub fn of_parts<E>(
         world: &World,
         mut each: impl FnMut(&mut dyn FnMut(&Plan, &View)) -> Result<(), E>,

@@ -14,7 +14,7 @@ use std::path::Path;
 
 use cosmorama::raster::{EncodedImage, FramePool};
 
-use crate::codec::interface::{Codec, NumberPlanes, Sink, Source};
+use crate::codec::interface::{Codec, Sink, Source};
 use crate::header::{Header, ImageFile};
 use crate::{Choice, IoError, LayeredImage, Limits, MadeLayers, MadeRows, Plane, WriteOptions};
 
@@ -78,16 +78,6 @@ impl Codec for Exr {
         options: &WriteOptions,
     ) -> Result<(), IoError> {
         writer::write_layer_rows(path, output, layers, options)
-    }
-
-    fn encode_planes(
-        &self,
-        path: &Path,
-        output: Sink<'_>,
-        planes: NumberPlanes<'_>,
-        options: &WriteOptions,
-    ) -> Result<(), IoError> {
-        writer::write_planes(path, output, planes, options)
     }
 
     fn probe_chosen(&self, path: &Path, source: Source<'_>, choice: &Choice) -> Result<Header, IoError> {

@@ -19,7 +19,7 @@ use half::f16;
 use rayon::prelude::*;
 
 use super::{attributes, colour};
-use crate::codec::interface::{NumberPlanes, is_beside_others};
+use crate::codec::interface::is_beside_others;
 use crate::header::visit;
 use crate::{Compression, IoError, LayeredImage, LayeredRows, MadeLayers, MadeRows, Plane, PlaneSamples, WriteOptions};
 
@@ -219,6 +219,7 @@ fn layered(
     options: &WriteOptions,
 ) -> Result<Planes, IoError> {
     let mut list = image.map_or_else(|| Ok(Planes::new()), |image| picture(path, image, names, options))?;
+    let own = list.len();
     for Plane { name, samples } in planes {
         let samples = match samples {
             PlaneSamples::Half(samples) => FlatSamples::F16(samples),
@@ -226,7 +227,7 @@ fn layered(
             PlaneSamples::Uint(samples) => FlatSamples::U32(samples),
         };
         let name = Text::from(name.as_str());
-        if list.iter().all(|channel| channel.name != name) {
+        if list[..own].iter().all(|channel| channel.name != name) {
             list.push(AnyChannel::new(name, samples));
         }
     }
@@ -246,22 +247,6 @@ fn picture(path: &Path, image: &EncodedImage, names: &[String], options: &WriteO
     };
     let name = |i: usize| names.get(i).map_or(usual[i], String::as_str);
     (0..usual.len()).map(|i| Ok(AnyChannel::new(name(i), plane(path, image, i, &options.pool)?))).collect()
-}
-
-/// Writes named planes of numbers, as halves or as floats.
-pub(super) fn write_planes(
-    path: &Path,
-    output: impl Write + Seek,
-    numbers: NumberPlanes<'_>,
-    options: &WriteOptions,
-) -> Result<(), IoError> {
-    let NumberPlanes { size, planes, depth } = numbers;
-    let samples = |numbers: Vec<f32>| match depth {
-        Depth::Half => FlatSamples::F16(numbers.into_iter().map(f16::from_f32).collect()),
-        _ => FlatSamples::F32(numbers),
-    };
-    let list = planes.into_iter().map(|(name, numbers)| AnyChannel::new(name, samples(numbers))).collect();
-    save_lines(path, output, size, list, options)
 }
 
 /// Writes scan lines, and gives their memory back.

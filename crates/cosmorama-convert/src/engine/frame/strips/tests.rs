@@ -85,10 +85,7 @@ fn strips_are_the_picture() {
 fn strips_by_any_filter_are_the_picture() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).display().to_string();
-    let smooth = |sample: usize| ((sample % 480) as f32 / 240.0 - 1.0).abs();
-    let samples = Samples::Float((0..128 * 64 * 3).map(smooth).collect());
-    let sky = EncodedImage::new(128, 64, Channels::Rgb, Depth::Float, samples).unwrap();
-    cosmorama_io::write(path("sky.exr"), &sky, &WriteOptions::default()).unwrap();
+    cosmorama_io::write(path("sky.exr"), &smooth_sky(), &WriteOptions::default()).unwrap();
     let progress = &|_: f64| ControlFlow::Continue(());
     let filters = FilterName::NAMES.iter().map(|(name, _)| (*name, "adaptive"));
     let by_strips = filters.filter(|(filter, _)| *filter != "two-pass" && !filter.starts_with("labels"));
@@ -111,7 +108,7 @@ fn strips_by_any_filter_are_the_picture() {
         let picture = engine.writer().encode(picture.remove(0), Threads::All);
         let further = &FurtherFiles::new(&checked.job, frame.frame);
         let whole = Whole { frame, light: &light, layer: &layer, moments: None, further, progress };
-        let (mut farthest, mut others) = (0.0f32, 0);
+        let mut farthest = 0.0f32;
         for top in (0..picture.height()).step_by(STRIP) {
             let rows = top..picture.height().min(top + STRIP);
             let made = picture_rows(&engine, &whole, (0, rows.clone()));
@@ -119,13 +116,11 @@ fn strips_by_any_filter_are_the_picture() {
             let (Samples::Float(made), Samples::Float(part)) = (made.samples(), part.samples()) else {
                 panic!("no floats")
             };
-            for distance in made.iter().zip(part).map(|(made, part)| (made - part).abs()) {
-                others += usize::from(distance > 2e-5);
-                farthest = farthest.max(distance);
-            }
+            let differs = |sample: &f32| (sample - part[0]).abs() > 0.01;
+            assert!(part.iter().any(differs), "{filter}, {kernel}: nothing is to be seen");
+            farthest = made.iter().zip(part).map(|(made, part)| (made - part).abs()).fold(farthest, f32::max);
         }
-        // Where two texels, or two levels, are equally near, the last digit decides.
-        assert!(others <= 8 * 530 * 3 / 500, "{filter}, {kernel}: {others} others, up to {farthest}");
+        assert!(farthest <= 2e-5, "{filter}, {kernel}: {farthest}");
     }
 }
 
@@ -134,9 +129,7 @@ fn strips_by_any_filter_are_the_picture() {
 fn strips_have_the_channels_of_the_picture() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).display().to_string();
-    let smooth = |sample: usize| ((sample % 480) as f32 / 240.0 - 1.0).abs();
-    let samples = Samples::Float((0..128 * 64 * 3).map(smooth).collect());
-    let picture = EncodedImage::new(128, 64, Channels::Rgb, Depth::Float, samples).unwrap();
+    let picture = smooth_sky();
     let named = |name: &str, samples| Plane { name: name.to_owned(), samples };
     let planes = || {
         let numbers = |first: usize| PlaneSamples::Float((first..first + 128 * 64).map(smooth).collect());
@@ -196,10 +189,7 @@ fn strips_have_the_channels_of_the_picture() {
 fn strips_are_the_picture_that_a_moving_camera_takes() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).display().to_string();
-    let smooth = |sample: usize| ((sample % 480) as f32 / 240.0 - 1.0).abs();
-    let samples = Samples::Float((0..128 * 64 * 3).map(smooth).collect());
-    let sky = EncodedImage::new(128, 64, Channels::Rgb, Depth::Float, samples).unwrap();
-    cosmorama_io::write(path("sky.exr"), &sky, &WriteOptions::default()).unwrap();
+    cosmorama_io::write(path("sky.exr"), &smooth_sky(), &WriteOptions::default()).unwrap();
     let samples = Samples::Float((0..64 * 64 * 4).map(smooth).collect());
     let front = EncodedImage::new(64, 64, Channels::Rgba, Depth::Float, samples).unwrap();
     cosmorama_io::write(path("front.exr"), &front, &WriteOptions::default()).unwrap();
@@ -285,6 +275,17 @@ fn strips_know_what_lies_beside_them() {
             assert!(steps <= 1.0, "{input}, rows {rows:?}: {steps} steps");
         }
     }
+}
+
+/// Makes a panorama of 128×64 that is smooth along its rows.
+fn smooth_sky() -> EncodedImage {
+    let samples = Samples::Float((0..128 * 64 * 3).map(smooth).collect());
+    EncodedImage::new(128, 64, Channels::Rgb, Depth::Float, samples).unwrap()
+}
+
+/// Returns a sample of a wave that rises and falls.
+fn smooth(sample: usize) -> f32 {
+    ((sample % 480) as f32 / 240.0 - 1.0).abs()
 }
 
 /// Makes rows of a picture.
