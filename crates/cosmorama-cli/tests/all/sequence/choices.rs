@@ -211,13 +211,13 @@ fn blur_takes_kernels_channels_and_eyes() {
     // Each eye is blurred as it is alone.
     let eyes =
         floats(
-            256,
-            256,
-            |i, j| if j < 128 { [(i % 9) as f32 / 9.0, 0.0, 0.0] } else { [0.0, 0.0, (i % 7) as f32 / 7.0] },
+            128,
+            128,
+            |i, j| if j < 64 { [(i % 9) as f32 / 9.0, 0.0, 0.0] } else { [0.0, 0.0, (i % 7) as f32 / 7.0] },
         );
     bench.save("eyes.exr", &eyes);
-    bench.save("left.exr", &floats(256, 128, |i, _| [(i % 9) as f32 / 9.0, 0.0, 0.0]));
-    bench.save("right.exr", &floats(256, 128, |i, _| [0.0, 0.0, (i % 7) as f32 / 7.0]));
+    bench.save("left.exr", &floats(128, 64, |i, _| [(i % 9) as f32 / 9.0, 0.0, 0.0]));
+    bench.save("right.exr", &floats(128, 64, |i, _| [0.0, 0.0, (i % 7) as f32 / 7.0]));
     std::fs::write(bench.path("shot.csv"), &shot).unwrap();
     let shutter = ["--path", "shot.csv", "--frames", "1", "--shutter", "1", "--size", "64", "-y", "--depth", "float"];
     bench.succeed(
