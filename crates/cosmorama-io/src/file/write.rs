@@ -131,14 +131,10 @@ pub fn write_planes(
 ) -> Result<(), IoError> {
     let path = path.as_ref();
     let format = Format::from_extension(path)?;
-    let cannot_hold =
-        |found: String, expected: String| Err(IoError::CannotHold { path: path.to_owned(), format, found, expected });
     if format != Format::Exr || !depth.is_float() {
         let found = format!("{} named channels of depth {depth}", planes.len());
-        return cannot_hold(found, "OpenEXR; depth half, float".to_owned());
-    }
-    if let Some((name, plane)) = planes.iter().find(|(_, plane)| size.0.checked_mul(size.1) != Some(plane.len())) {
-        return cannot_hold(format!("{} numbers in {name}", plane.len()), format!("{}x{}", size.0, size.1));
+        let expected = "OpenEXR; depth half, float".to_owned();
+        return Err(IoError::CannotHold { path: path.to_owned(), format, found, expected });
     }
     let samples = |numbers: Vec<f32>| match depth {
         Depth::Half => PlaneSamples::Half(numbers.into_iter().map(f16::from_f32).collect()),

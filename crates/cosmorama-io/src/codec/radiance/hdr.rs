@@ -110,11 +110,10 @@ fn each_line(
 ) -> Result<(), IoError> {
     // Pixels are read byte by byte, which is faster from a buffer of known type.
     let mut source = BufReader::with_capacity(BUFFER, source);
-    // No memory is taken for lines, however long, of which there is nothing.
-    if source.fill_buf().map_err(|error| IoError::open(path, error))?.is_empty() {
-        return Err(IoError::damaged(path, FORMAT, "it ends with its header"));
-    }
-    let mut line = vec![[0; 4]; header.width];
+    // What the limits permit may be more than there is.
+    let mut line: Vec<Rgbe> = bytemuck::try_zeroed_vec(header.width).map_err(|()| {
+        IoError::damaged(path, FORMAT, format_args!("there is no memory for lines of {} pixels", header.width))
+    })?;
     for j in 0..header.height {
         rgbe::read_line(&mut source, &mut line).map_err(|error| IoError::damaged(path, FORMAT, error))?;
         visit(j, &line);
