@@ -16,7 +16,7 @@ use cosmorama_spec::Missing;
 use super::Content;
 use super::backdrop::{FoundBackdrop, Front};
 use super::gaps::Shot;
-use super::memory_needs::{FrameNeeds, Held, STRIP, gathered_bytes, is_large};
+use super::memory_needs::{FrameNeeds, Held, gathered_bytes, is_large};
 use super::options::{check_file_options, filter};
 use crate::colour::{LayerPlan, Light, check_choice, check_labels, check_light};
 use crate::detect::unless_damaged;
@@ -498,7 +498,7 @@ impl ConvertJob {
             return Err(usage(format!("{MOTION} ellipse averages texels, but a formula has none; leave it out")));
         }
         for frame in self.input.frames.clone() {
-            if self.moments(frame)?.is_some() {
+            if let Some(moments) = self.moments(frame)? {
                 self.is_blurred = true;
                 if blur.method == BlurMethod::Ellipse && self.filter.kind != FilterKind::Ewa {
                     let message =
@@ -512,22 +512,11 @@ impl ConvertJob {
                 let sum = self.frame_needs().light_of_pictures();
                 self.prepared = self.prepared.saturating_add(sum);
                 self.memory.check_sum(self.frame_needs(), sum)?;
-                self.keep_room_for_rings();
+                self.keep_room_for_rings(blur.method, &moments)?;
                 break;
             }
         }
         Ok(())
-    }
-
-    /// Keeps memory for a frame whose moments are rendered together, view by view, if there is enough.
-    fn keep_room_for_rings(&mut self) {
-        let rows = if self.is_by_strips() { STRIP } else { usize::MAX };
-        let pixels = self.target.views.iter().map(|target| target.view.width() * target.view.height().min(rows)).max();
-        let needed = (pixels.unwrap_or(0) * Exposure::MOST_SAMPLES * size_of::<Rgba>()) as u64;
-        self.has_room_for_rings = self.memory.beside_frame(self.frame_needs()).bytes >= needed;
-        if self.has_room_for_rings {
-            self.prepared = self.prepared.saturating_add(needed);
-        }
     }
 
     /// Returns the moments of a frame's exposure; `None` where nothing moves, or nothing is blurred.

@@ -42,9 +42,6 @@ impl Exposure {
     /// Filter by which [`Exposure::ellipse`] averages.
     pub const FILTER: Ewa = Ewa { kernel: Self::KERNEL, anti_ringing: false };
 
-    /// Greatest number of samples, for each pixel of a view, that [`Exposure::swept`] and [`Exposure::ellipses`] hold at once.
-    pub const MOST_SAMPLES: usize = 8;
-
     /// Number of moments by which the ways of pixels are measured, and from which an ellipse is made.
     pub const FEW: usize = 5;
 

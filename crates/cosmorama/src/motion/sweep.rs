@@ -5,7 +5,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::marks::{CELL, Marks};
-use super::rings::{Profile, Rings, Swept};
+use super::rings::{Profile, Rings, Swept, most_bytes_a_pixel};
 use super::turning::{Tolerance, Turning};
 use super::{Exposure, LightSum};
 use crate::camera::View;
@@ -49,8 +49,9 @@ impl Exposure {
             let share = Share { whole: progress, from: done(part.views.start), to: done(part.views.end) };
             let some = &views[part.views.clone()];
             let weight: f32 = some.iter().map(|(_, weight)| weight).sum();
-            let image = match &part.rings {
-                Some(rings) => by_rings(rings, some, (world, filter), texels, &share)?,
+            let rings = if part.has_rings { rings(some, (world, filter)) } else { None };
+            let image = match rings {
+                Some(rings) => by_rings(&rings, some, (world, filter), texels, &share)?,
                 None => by_moments(some, (world, filter), texels, &share)?,
             };
             match &mut sum {
@@ -89,6 +90,12 @@ impl Exposure {
         Ok(image)
     }
 
+    /// Returns the greatest number of bytes that [`Exposure::swept`] and [`Exposure::ellipses`] hold beside pictures, for each pixel
+    /// of a view: none where the filter is none that they sample.
+    pub fn most_bytes_a_pixel(view: &View, resampler: (&World, FilterSettings)) -> usize {
+        most_bytes_a_pixel(view, resampler)
+    }
+
     /// Returns the Gaussian of the light over the angles of the views.
     fn gaussian(&self, angles: &[f64]) -> Profile {
         let sum = |of: &dyn Fn(f64) -> f64| {
@@ -100,30 +107,32 @@ impl Exposure {
     }
 }
 
-/// Views that follow one another, with their rings if they turn about one axis.
-struct Part<'a> {
+/// Views that follow one another, and whether they have rings: whether they turn about one axis.
+struct Part {
     views: Range<usize>,
-    rings: Option<Rings<'a>>,
+    has_rings: bool,
 }
 
-/// Divides an exposure into parts that turn about one axis each, as far as that pays.
-fn parts<'a>(views: &'a [(View, f32)], resampler: (&'a World, FilterSettings), range: Range<usize>) -> Vec<Part<'a>> {
+/// Divides an exposure into parts that turn about one axis each, as far as that pays. Rings of one part are held at once.
+fn parts(views: &[(View, f32)], resampler: (&World, FilterSettings), range: Range<usize>) -> Vec<Part> {
     if range.len() < LEAST {
-        return vec![Part { views: range, rings: None }];
+        return vec![Part { views: range, has_rings: false }];
     }
-    let some = &views[range.clone()];
-    let rings = Turning::of(some, resampler.0.texel_pitch(), TURN).and_then(|turning| {
-        let weights = some.iter().map(|(_, weight)| f64::from(*weight));
-        let profile = Profile::Moments(turning.angles.iter().copied().zip(weights).collect());
-        Rings::new(some, &turning, &profile, resampler)
-    });
-    if rings.is_some() {
-        return vec![Part { views: range, rings }];
+    if rings(&views[range.clone()], resampler).is_some() {
+        return vec![Part { views: range, has_rings: true }];
     }
     let middle = range.start + range.len() / 2;
     let mut halves = parts(views, resampler, range.start..middle);
     halves.extend(parts(views, resampler, middle..range.end));
-    if halves.iter().any(|part| part.rings.is_some()) { halves } else { vec![Part { views: range, rings: None }] }
+    if halves.iter().any(|part| part.has_rings) { halves } else { vec![Part { views: range, has_rings: false }] }
+}
+
+/// Returns the rings of some views, if these turn about one axis.
+fn rings<'a>(views: &'a [(View, f32)], resampler: (&'a World, FilterSettings)) -> Option<Rings<'a>> {
+    let turning = Turning::of(views, resampler.0.texel_pitch(), TURN)?;
+    let weights = views.iter().map(|(_, weight)| f64::from(*weight));
+    let profile = Profile::Moments(turning.angles.iter().copied().zip(weights).collect());
+    Rings::new(views, &turning, &profile, resampler)
 }
 
 /// Averages the pictures of some moments.
@@ -250,7 +259,7 @@ mod tests {
         let views = exposure.views();
         let parts = parts(views, (world, FilterSettings::DEFAULT), 0..views.len());
         let certain = |part: &Part| {
-            let rings = part.rings.as_ref()?;
+            let rings = rings(&views[part.views.clone()], (world, FilterSettings::DEFAULT))?;
             let left = rings.render(light.texels(), JUMP, &on).expect("a picture").left;
             let certain = 1.0 - left.count() as f64 / (96 * 72 / 64) as f64;
             Some(certain * part.views.len() as f64 / views.len() as f64)
@@ -382,7 +391,7 @@ mod tests {
         };
         let few = exposure(view, ShutterCurve::Box, 64);
         let parts = parts(few.views(), (&world, FilterSettings::DEFAULT), 0..64);
-        assert!(parts.iter().all(|part| part.rings.is_some()) && parts.iter().any(|part| part.views.end == 32));
+        assert!(parts.iter().all(|part| part.has_rings) && parts.iter().any(|part| part.views.end == 32));
         let (worst, _) =
             worst(&swept(&few, &world, &light), &summed(&exposure(view, ShutterCurve::Box, 1024), &world, &light));
         assert!(worst < 1.0 / 500.0, "{worst}");

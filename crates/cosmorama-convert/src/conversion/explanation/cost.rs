@@ -105,7 +105,7 @@ impl Explanation {
         let largest = self.pictures().iter().filter(is_part).map(|picture| area(size(picture))).max().unwrap_or(0);
         let prepared = reports.iter().map(|report| report.memory.levels as u64).max().unwrap_or(0);
         let needs = FrameNeeds::of_pictures(input, worlds, (pixels, largest), held).with_prepared(prepared);
-        let needs = needs.with_bands(input.texels() as u64, self.pictures().iter().map(size));
+        let needs = needs.with_footprints(input.texels() as u64, self.pictures().iter().map(|picture| &picture.view));
         let needs = if are_too_large(sizes.iter().copied()) { needs.by_strips(files.format(), &sizes) } else { needs };
         let plan = |report: &explain::Report| {
             if held == Held::INTEGERS { report.memory.fixed_plan } else { report.memory.plan }
@@ -113,13 +113,14 @@ impl Explanation {
         let plans: u64 = reports.iter().map(|report| plan(report) as u64).sum();
         let threads = self.pool.current_num_threads();
         let depth = self.memory.queue_depth(needs, self.pictures().len(), plans, threads);
-        let program = program_bytes(threads);
+        let of_job = [needs.shared, plans, depth.bytes].into_iter().fold(0, u64::saturating_add);
+        let with_program = |bytes: u64| program_bytes(threads, needs.made()).saturating_add(bytes);
         let raw = pixels.saturating_mul(files.pixel_bytes());
         SequenceCost {
             files,
             cpu_seconds: seconds(files, input, raw, reports),
-            picture_bytes: program.saturating_add(needs.peak()),
-            job_bytes: [program, needs.shared, plans, depth.bytes].into_iter().fold(0, u64::saturating_add),
+            picture_bytes: with_program(needs.peak()),
+            job_bytes: with_program(of_job),
             frame_bytes: compressed(raw, files.format(), None),
         }
     }

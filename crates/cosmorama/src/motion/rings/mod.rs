@@ -14,7 +14,6 @@ use fearless_simd::{Level, dispatch};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::Exposure;
 use super::marks::Marks;
 use super::turning::{Turning, lattice};
 use crate::camera::{CameraModel, EquirectCamera, PixelGrid, PixelPoint, View};
@@ -23,7 +22,7 @@ use crate::raster::{Image, Rgba};
 use crate::render::{Progress, Resampler, Sampling, Stopped, Wanted};
 use crate::sphere::{Direction, Orientation};
 use crate::world::World;
-use cells::{Cell, Cells, Frame, SIDE};
+use cells::{Cell, Cells, Frame, Pixel, SIDE};
 use taps::{BEFORE, DIFFERENCE, Interpolation, OF_JUMP, REACH, Taps, Weights, blur};
 
 /// As many times more samples are needed where a kernel is as wide as it is because texels are: it leaves some of their lattice.
@@ -43,6 +42,9 @@ pub(super) enum Profile {
     /// A Gaussian of this mean and standard deviation.
     Gaussian { mean: f64, deviation: f64 },
 }
+
+/// Greatest number of samples for each pixel of a view.
+const MOST_SAMPLES: usize = 8;
 
 /// Standard deviations after which a Gaussian ends.
 const TAIL: f64 = 4.0;
@@ -127,7 +129,7 @@ impl<'a> Rings<'a> {
         let (top, bottom) =
             ((least[1].floor() as i64 - BEFORE).max(-pole), (most[1].floor() as i64 + after).min(pole + 1));
         let (width, height) = ((right - left) as usize, (bottom - top).max(1) as usize);
-        if width.checked_mul(height)? > Exposure::MOST_SAMPLES * lens.width() * lens.height() {
+        if width.checked_mul(height)? > MOST_SAMPLES * lens.width() * lens.height() {
             return None;
         }
         let origin = PixelPoint::new(0.5 - left as f64, 0.5 - top as f64);
@@ -305,6 +307,11 @@ fn with_neighbours(is_marked: &[bool], across: usize) -> Marks {
 
 /// Part of a texel's width below which a pixel shows each jump of the clamp to the texels nearby.
 const CLAMPED: f64 = 0.5;
+
+/// Returns the greatest number of bytes that rings hold for each pixel of a view: none where its filter cannot be sampled.
+pub(super) fn most_bytes_a_pixel(lens: &View, resampler: (&World, FilterSettings)) -> usize {
+    if is_sampled(lens, resampler) { MOST_SAMPLES * size_of::<Rgba>() + size_of::<Option<Pixel>>() } else { 0 }
+}
 
 /// Returns whether a filter's pixels change smoothly from place to place, so that they can be interpolated.
 fn is_sampled(lens: &View, (world, filter): (&World, FilterSettings)) -> bool {

@@ -80,12 +80,12 @@ impl<F: Format, P: NoUninit, M: Maker<F, P>> Outlet<F> for Painter<'_, '_, M, F,
     }
 }
 
-/// Number of texels of single pixels, in all mirror images, above which a band is spilled. A small picture of a large
-/// world may have millions for each pixel.
-const MANY: usize = 1 << 17;
+/// Number of texels of single pixels, in all mirror images, above which a band is spilled: what a thread holds stays in
+/// its cache. A small picture of a large world may have millions for each pixel.
+const MANY: usize = 1 << 14;
 
 /// Number of four-byte numbers of windows' weights above which a band is spilled; a pixel has up to a thousand.
-const NUMBERS: usize = 1 << 20;
+const NUMBERS: usize = 1 << 16;
 
 impl<F: Format, O: Outlet<F>> Sink for Recorder<'_, F, O> {
     fn pixel(&mut self, pixel: [usize; 2], coverage: f32, taps: &Taps) {

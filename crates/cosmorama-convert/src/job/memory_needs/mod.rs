@@ -3,6 +3,10 @@
 //! A frame is read, then filtered, then written, and each of these frees what the next does not need. So it takes what the greediest of
 //! them holds, and not the sum of all.
 
+mod checks;
+mod footprint;
+mod rings;
+
 use cosmorama::camera::View;
 use cosmorama::filter::FilterKind;
 use cosmorama::projection::ProjectionKind;
@@ -11,13 +15,13 @@ use cosmorama::world::{StPixel, World};
 use cosmorama_builtin::{DirectionMap, DirectionPixel};
 use cosmorama_io::{Format, Header};
 
-use crate::colour::{LayerPlan, Light};
-use crate::diagnostic::{CHANNELS, EVERY, Result, SHUTTER};
+use crate::colour::Light;
 use crate::input::{Input, InputView};
-use crate::job::{Content, ConvertJob, FrameMemory, QueueDepth};
-use crate::source::MemoryBudget;
-use crate::source::memory_budget::{area, human, read_bytes};
+use crate::job::{Content, ConvertJob, FrameMemory};
+use crate::source::memory_budget::{area, read_bytes};
 use crate::target::{Sheet, Strip, Target, TargetView};
+
+use footprint::footprint_bytes;
 
 /// Bytes in which a job holds a texel of light, a pixel of a picture, and a pixel of its file's samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,8 +88,8 @@ pub(crate) struct FrameNeeds {
     pictures: u64,
     /// Largest part of a sheet, which is made by itself.
     piece: u64,
-    /// Weights of the rows that threads work on.
-    bands: u64,
+    /// Weights of the texels under pixels that threads work on.
+    footprints: u64,
     /// Masks of pixels that no view covers.
     masks: u64,
     /// Samples of the pictures.
@@ -138,7 +142,7 @@ impl FrameNeeds {
             light,
             pictures: pixels.saturating_mul(held.pixel),
             piece: largest.saturating_mul(held.pixel),
-            bands: 0,
+            footprints: 0,
             masks: 0,
             encoded: pixels.saturating_mul(held.encoded),
             is_by_strips: false,
@@ -151,15 +155,9 @@ impl FrameNeeds {
         Self { shared: views.map(table_bytes).fold(self.shared, u64::saturating_add), ..self }
     }
 
-    /// Adds the weights of the rows of views of these sizes that threads work on. Where texels are far more than pixels, there is about one
-    /// weight for each texel.
-    pub(crate) fn with_bands(self, texels: u64, views: impl Iterator<Item = (usize, usize)>) -> Self {
-        let rows = BAND_ROWS.saturating_mul(rayon::current_num_threads() as u64);
-        let bytes = |(width, height): (usize, usize)| {
-            let all = texels.saturating_add(area((width, height))).saturating_mul(WEIGHT);
-            all / (height as u64).max(1) * rows.min(height as u64)
-        };
-        Self { bands: views.map(bytes).max().unwrap_or(0), ..self }
+    /// Adds the weights of the texels that pixels of these views see, of so many all around. They count where pixels are few.
+    pub(crate) fn with_footprints<'v>(self, texels: u64, views: impl Iterator<Item = &'v View>) -> Self {
+        Self { footprints: views.map(|view| footprint_bytes(texels, view)).max().unwrap_or(0), ..self }
     }
 
     /// Adds masks of views of these sizes, and the copy of one while it is made.
@@ -188,20 +186,25 @@ impl FrameNeeds {
     /// with the samples of the one before, which are written; all samples of a picture where the format is not written row by row.
     pub(crate) fn by_strips(self, format: Format, sizes: &[(usize, usize)]) -> Self {
         let all = pixels_in(sizes.iter().copied()).max(1);
-        let strip = |pictures: u64| (pictures / all).saturating_mul(strip_of(sizes.iter().copied()));
+        let strips = Strips::of(sizes.iter().copied());
+        let of = |bytes: u64, pixels: u64| (bytes / all).saturating_mul(pixels);
         let is_encoded = self.encoded > 0;
-        let samples = if is_encoded { self.encoded } else { self.pictures };
-        let largest = sizes.iter().copied().map(area).max().unwrap_or(0);
-        let written = if format.takes_rows() { strip(samples) } else { (samples / all).saturating_mul(largest) };
-        // OpenEXR sorts those that it writes by channel.
-        let sorted = if format == Format::Exr { strip(samples) } else { 0 };
+        let samples = |pixels: u64| of(if is_encoded { self.encoded } else { self.pictures }, pixels);
         // Integers are samples themselves.
-        let light = if is_encoded { strip(self.pictures) } else { 0 };
+        let light = |pixels: u64| if is_encoded { of(self.pictures, pixels) } else { 0 };
+        let made = |pixels: u64| light(pixels).saturating_add(samples(pixels));
+        let largest = sizes.iter().copied().map(area).max().unwrap_or(0);
+        let written = if format.takes_rows() { samples(strips.first) } else { samples(largest) };
+        // OpenEXR sorts those that it writes by channel.
+        let sorted = if format == Format::Exr { samples(strips.first) } else { 0 };
+        // The first is made by itself, and written while the next is made.
+        let most = made(strips.first).max(sum([written, sorted, made(strips.next)]));
+        let light = light(strips.first);
         Self {
-            pictures: sum([written, strip(samples), sorted]),
-            piece: light + strip(self.pictures).min(self.piece),
+            pictures: most.saturating_sub(light),
+            piece: light.saturating_add(of(self.pictures, strips.first).min(self.piece)),
             encoded: 0,
-            masks: if self.masks == 0 { 0 } else { strip(all.saturating_mul(2 * MASK)) },
+            masks: if self.masks == 0 { 0 } else { strips.first.saturating_mul(2 * MASK) },
             is_by_strips: true,
             ..self
         }
@@ -223,7 +226,7 @@ impl FrameNeeds {
         let Samples { all, scratch, is_kept, .. } = self.samples;
         let band = if is_kept { u64::MAX } else { (BAND * size_of::<Rgba>()) as u64 };
         let (first, last) = (sum([all, scratch.max(self.light.min(band))]), sum([self.light, all.min(band)]));
-        let filtered = sum([self.light, self.prepared, self.pictures, self.piece, self.bands, self.masks]);
+        let filtered = sum([self.light, self.prepared, self.pictures, self.piece, self.footprints, self.masks]);
         let written = sum([self.pictures, self.encoded]);
         self.shared.saturating_add(first.max(last).max(filtered).max(written))
     }
@@ -233,8 +236,13 @@ impl FrameNeeds {
     fn in_sequence(self) -> FrameMemory {
         let Samples { all, moving, scratch, .. } = self.samples;
         let written = self.pictures.saturating_add(self.encoded);
-        let once = sum([scratch, self.light, self.prepared, self.piece, self.bands, self.masks]);
+        let once = sum([scratch, self.light, self.prepared, self.piece, self.footprints, self.masks]);
         FrameMemory { all: sum([all, once, written]), read: moving, written }
+    }
+
+    /// Returns the bytes that are made of pictures.
+    pub(crate) fn made(self) -> u64 {
+        sum([self.pictures, self.piece, self.encoded])
     }
 
     /// Returns the bytes of the pictures.
@@ -286,10 +294,11 @@ impl ConvertJob {
             .beside_streams(self.input.ahead_bytes(&*self.files));
         let is_one = self.input.frames.len() <= 1 && !self.outputs.are_many();
         let needs = if is_one { needs } else { needs.of_many() };
-        let has_bands = self.content.has_files() && self.filter.kind == FilterKind::Ewa && self.lighting.is_none();
-        let views = self.target.views.iter().map(|target| (target.view.width(), target.view.height()));
-        let needs = if has_bands { needs.with_bands(self.input.texels() as u64, views.clone()) } else { needs };
-        let needs = if self.has_masks() { needs.with_masks(views) } else { needs };
+        let views = self.target.views.iter().map(|target| &target.view);
+        let is_weighed = self.content.has_files() && self.filter.kind == FilterKind::Ewa && self.lighting.is_none();
+        let texels = if is_weighed { self.input.texels() as u64 } else { 0 };
+        let needs = needs.with_footprints(texels, views.clone());
+        let needs = if self.has_masks() { needs.with_masks(views.map(size_of_view)) } else { needs };
         if self.is_by_strips() { needs.by_strips_of(&self.target) } else { needs }
     }
 
@@ -313,143 +322,24 @@ impl ConvertJob {
     /// Returns the pixels of further channels that are held at once: of all pictures, or of a strip and of the one before, which is written.
     pub(super) fn pixels_made(&self) -> u64 {
         let sizes = self.target.files.iter().map(|file| file.sheet.size);
-        if self.is_by_strips() { strip_of(sizes).saturating_mul(2) } else { pixels_in(sizes) }
+        if self.is_by_strips() {
+            let Strips { first, next } = Strips::of(sizes);
+            first.saturating_add(next)
+        } else {
+            pixels_in(sizes)
+        }
     }
 
     /// Returns the memory that a single frame needs in all: with the program, further channels, and what lies behind.
     pub(crate) fn estimated_bytes(&self, threads: usize) -> u64 {
         let of_layer = |job: &Self| {
+            let needs = job.frame_needs();
             let further = job.layers.bytes(job.input.texels() as u64, job.pixels_made());
-            job.frame_needs().peak().saturating_add(further)
+            [needs.peak().saturating_add(further), needs.made()]
         };
-        let pictures = self.layers().map(of_layer).fold(0, u64::saturating_add);
-        with_reserve(pictures).saturating_add(program_bytes(threads))
-    }
-}
-
-impl MemoryBudget {
-    /// Checks that the geometry of whole pictures, and the light of the largest file, fit before memory is allocated. A
-    /// small file may declare a huge size, or be a window of a huge canvas.
-    pub(crate) fn check_pictures(self, input: &Input) -> Result<()> {
-        let tables = input.views().map(|view| table_bytes(&view.nominal)).fold(0, u64::saturating_add);
-        // At least, since pictures of 8 bits may be held in integers.
-        let light =
-            |header: &Header| Held::INTEGERS.light((header.width, header.height)).saturating_add(read_bytes(header));
-        let light = input.present().map(|(_, header, _)| light(header)).max().unwrap_or(0);
-        let needed = sum([solid_angle_bytes(input, &[]), tables, light]);
-        let largest = input.views().max_by_key(|view| pixels_of(&view.nominal)).map_or_else(String::new, |view| {
-            let (width, height) = (view.nominal.width(), view.nominal.height());
-            format!("; the largest whole picture, {}, has {width}x{height} pixels", view.name)
-        });
-        self.allow(needed, "the input", &largest)
-    }
-
-    /// Checks that the outputs of a frame fit, before anything is made.
-    pub(crate) fn check_outputs(self, target: &Target, light: &Light) -> Result<()> {
-        let sizes = target.files.iter().flat_map(|file| file.levels()).map(|sheet| sheet.size);
-        let pixels = if is_large(target) && target.format.takes_rows() { strip_of(sizes) } else { pixels_in(sizes) };
-        // Each exists as a picture, in one form or the other, or as samples.
-        let least = light.file_bytes((1, 1)).min(Held::INTEGERS.pixel);
-        self.allow(pixels.saturating_mul(least), "a frame", &describe(target, "; "))
-    }
-
-    /// Checks that pictures of these sizes would fit in a frame, although they are only described.
-    pub(crate) fn check_sizes(self, sizes: impl IntoIterator<Item = (usize, usize)>) -> Result<()> {
-        let sizes: Vec<(usize, usize)> = sizes.into_iter().collect();
-        let largest = sizes.iter().max_by_key(|size| area(**size));
-        let why = largest.map_or_else(String::new, |(width, height)| format!("; the output {width}x{height}"));
-        let sizes = sizes.into_iter();
-        // They may be made by strips.
-        let pixels = if are_too_large(sizes.clone()) { strip_of(sizes) } else { pixels_in(sizes) };
-        self.allow(pixels.saturating_mul(Held::INTEGERS.pixel), "a frame", &why)
-    }
-
-    /// Checks that a frame with the light of all wanted views fits, before memory is allocated.
-    pub(crate) fn check_frame(self, needs: FrameNeeds, input: &Input, target: &Target) -> Result<()> {
-        let largest = input.present().max_by_key(|(_, header, _)| header.width.saturating_mul(header.height));
-        let largest = largest.map_or_else(String::new, |(view, header, _)| {
-            format!(
-                "; the largest input, {}, has {}x{} pixels",
-                view.files.path(None).display(),
-                header.width,
-                header.height
-            )
-        });
-        let link = if largest.is_empty() { "; " } else { ", and " };
-        self.allow(with_program(needs.peak()), "a frame", &(largest + &describe(target, link)))
-    }
-
-    /// Checks that things under a world fit, which need so many bytes beside the program. Returns the bytes of all.
-    ///
-    /// # Errors
-    /// When they do not.
-    pub fn check_things(self, bytes: u64, threads: usize) -> Result<u64> {
-        self.allow(with_program(bytes), "the picture", "; its world and its size decide")?;
-        Ok(bytes.saturating_add(program_bytes(threads)))
-    }
-
-    /// Returns the budget that is left beside a frame.
-    pub(crate) fn beside_frame(self, needs: FrameNeeds) -> Self {
-        self.beside(needs.peak())
-    }
-
-    /// Checks that a frame fits together with what a filter or light prepares of the input, which frames do one after the other.
-    pub(crate) fn check_prepared(self, needs: FrameNeeds) -> Result<()> {
-        let why = format!("; what is prepared of the input is {} of it", human(needs.prepared));
-        self.allow(with_program(needs.peak()), "a frame", &why)
-    }
-
-    /// Checks that a frame fits together with the sum of the pictures under a shutter, of so many bytes.
-    pub(crate) fn check_sum(self, needs: FrameNeeds, sum: u64) -> Result<()> {
-        let why = format!("; the sum of its moments, for {SHUTTER}, is {} of it", human(sum));
-        self.allow(with_program(needs.peak()), "a frame", &why)
-    }
-
-    /// Checks that a frame fits together with copies of the maps, between which others are interpolated.
-    pub(crate) fn check_maps(self, needs: FrameNeeds, maps: u64) -> Result<()> {
-        let why = format!("; the maps between two that are computed, for {EVERY}, are {} of it", human(maps));
-        self.allow(with_program(needs.peak()), "a frame", &why)
-    }
-
-    /// Chooses how many further channels are read at once, of so many texels, and returns the budget that is left beside all of them,
-    /// of which so many pixels are made. It is an error if not even the largest group of them fits beside a frame.
-    pub(crate) fn beside_channels(
-        self,
-        layers: &mut LayerPlan,
-        needs: FrameNeeds,
-        (read, made): (u64, u64),
-    ) -> Result<Self> {
-        if layers.groups.is_empty() {
-            return Ok(self);
-        }
-        let least = layers.bytes(read, made);
-        let needed = needs.peak().saturating_add(least);
-        let why = format!("; its further channels are {} of it, and {CHANNELS} takes fewer", human(least));
-        self.allow(needed, "a frame", &why)?;
-        let spare = self.bytes - needed;
-        layers.room = layers.largest_bytes(read).saturating_add(spare.min(self.bytes / READ_PART));
-        Ok(self.beside(layers.bytes(read, made)))
-    }
-
-    /// Returns the memory left for geometry that all frames share.
-    pub(crate) fn left_for_plan(self, needs: FrameNeeds, threads: usize) -> u64 {
-        self.beside_program(threads).saturating_sub(sum([needs.shared, needs.in_sequence().all]))
-    }
-
-    /// Returns the memory left beside the program itself. A single frame may use less than is counted here, so it is
-    /// not limited by it.
-    fn beside_program(self, threads: usize) -> u64 {
-        self.bytes.saturating_sub(program_bytes(threads))
-    }
-
-    /// Returns how many frames may be in flight around the one that is filtered, beside the geometry that they share.
-    /// Each frame's files keep a thread busy, so more frames than threads are of no use.
-    pub(crate) fn queue_depth(self, needs: FrameNeeds, files: usize, plans: u64, threads: usize) -> QueueDepth {
-        let wanted = |files: usize| 1 + threads.div_ceil(files.max(1));
-        let room = self.beside_program(threads).saturating_sub(plans).saturating_sub(needs.shared);
-        // By strips, pictures are encoded as they are made.
-        let written = if needs.is_by_strips { 1 } else { wanted(files) };
-        QueueDepth::fitting(room, needs.in_sequence(), (wanted(needs.samples.files), written))
+        let sums = |[a, b]: [u64; 2], [c, d]: [u64; 2]| [a.saturating_add(c), b.saturating_add(d)];
+        let [all, made] = self.layers().map(of_layer).fold([0, 0], sums);
+        with_reserve(all).saturating_add(program_bytes(threads, made))
     }
 }
 
@@ -457,10 +347,10 @@ impl MemoryBudget {
 pub(crate) const BAND: usize = 1 << 20;
 
 /// Memory of the program without pictures, with its tables.
-const PROGRAM: u64 = 20 << 20;
+const PROGRAM: u64 = 23 << 20;
 
-/// Memory of a thread beside the pictures that it works on: blocks of files, and the allocator's reserve.
-const THREAD: u64 = 4 << 20;
+/// Memory of a thread beside the pictures that it works on: weights of some pixels, blocks of files, and the allocator's reserve.
+const THREAD: u64 = 1 << 19;
 
 /// Part of the memory of pictures that the allocator keeps beside them: freed blocks, and pages half used.
 const RESERVE: u64 = 16;
@@ -482,9 +372,21 @@ pub(crate) fn are_too_large(sizes: impl Iterator<Item = (usize, usize)>) -> bool
     pixels_in(sizes) > MOST_HELD
 }
 
-/// Returns the pixels of the largest strip of pictures of these sizes.
-fn strip_of(sizes: impl Iterator<Item = (usize, usize)>) -> u64 {
-    sizes.map(|(width, height)| area((width, height.min(STRIP)))).max().unwrap_or(0)
+/// Pixels of the largest strips of pictures.
+#[derive(Clone, Copy)]
+struct Strips {
+    first: u64,
+    /// Of the one that is made while the first is written.
+    next: u64,
+}
+
+impl Strips {
+    fn of(sizes: impl Iterator<Item = (usize, usize)>) -> Self {
+        sizes.fold(Self { first: 0, next: 0 }, |most, (width, height)| {
+            let (first, next) = (height.min(STRIP), height.saturating_sub(STRIP).min(STRIP));
+            Self { first: most.first.max(area((width, first))), next: most.next.max(area((width, next))) }
+        })
+    }
 }
 
 fn pixels_in(sizes: impl Iterator<Item = (usize, usize)>) -> u64 {
@@ -497,22 +399,12 @@ pub(crate) const STRIP: usize = 512;
 /// Bytes of a pixel of a mask.
 const MASK: u64 = 8;
 
-/// Rows that a thread works on.
-const BAND_ROWS: u64 = 32;
-
-/// Bytes of a texel's weight, and of what a pixel's weights need beside them.
-const WEIGHT: u64 = 8;
-
-/// Memory from which budgets hold for the program and all its threads, too. Smaller ones hold for pictures: nobody means that the program
-/// itself is too large.
-const SMALL: u64 = 64 << 20;
-
 /// Bytes of blocks and copies that a decoder holds, at most.
 const MOST_SCRATCH: u64 = 72 << 20;
 
-/// Returns the memory of the program without pictures.
-pub(crate) fn program_bytes(threads: usize) -> u64 {
-    PROGRAM.saturating_add(THREAD.saturating_mul(threads as u64))
+/// Returns the memory of the program without its pictures, of which so many bytes are made. Threads take no more than there is to make.
+pub(crate) fn program_bytes(threads: usize, made: u64) -> u64 {
+    PROGRAM.saturating_add(THREAD.saturating_mul(threads as u64).min(made.saturating_mul(8)))
 }
 
 /// Adds what the allocator keeps beside pictures to their bytes.
@@ -520,27 +412,17 @@ pub(crate) fn with_reserve(pictures: u64) -> u64 {
     pictures.saturating_add(pictures / RESERVE)
 }
 
-/// Adds the program to the bytes of pictures, unless both are few.
-fn with_program(pictures: u64) -> u64 {
-    let all = with_reserve(pictures).saturating_add(program_bytes(rayon::current_num_threads()));
-    if all < SMALL { pictures } else { all }
-}
-
 fn sum<const N: usize>(bytes: [u64; N]) -> u64 {
     bytes.into_iter().fold(0, u64::saturating_add)
 }
 
 fn pixels_of(view: &View) -> u64 {
-    area((view.width(), view.height()))
+    area(size_of_view(view))
 }
 
-fn describe(target: &Target, link: &str) -> String {
-    let size = |Sheet { size: (width, height), .. }: &Sheet| format!("{link}the output {width}x{height}");
-    target.files.first().map_or_else(String::new, |file| size(&file.sheet))
+fn size_of_view(view: &View) -> (usize, usize) {
+    (view.width(), view.height())
 }
-
-/// Part of the memory, at most, into which further channels are read at once, beside the largest group of them.
-const READ_PART: u64 = 4;
 
 /// Returns the bytes of tables that a view's projection holds.
 fn table_bytes(view: &View) -> u64 {
