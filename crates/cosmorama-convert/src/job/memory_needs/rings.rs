@@ -1,6 +1,6 @@
 //! Memory for pictures under an open shutter whose moments are rendered together.
 
-use cosmorama::filter::{FilterKind, FilterSettings};
+use cosmorama::filter::{Ewa, FilterKind, FilterSettings};
 use cosmorama::motion::{Exposure, Moment};
 
 use super::STRIP;
@@ -13,28 +13,29 @@ impl ConvertJob {
     /// Keeps memory for frames whose moments are rendered together, view by view, if there is enough. These are the moments of one.
     pub(crate) fn keep_room_for_rings(&mut self, method: BlurMethod, moments: &[Moment]) -> Result<()> {
         let rows = if self.is_by_strips() { STRIP } else { usize::MAX };
-        let filter = match method {
-            BlurMethod::Swept => self.filter,
-            BlurMethod::Ellipse => FilterSettings {
-                kind: FilterKind::Ewa,
-                kernel: Exposure::KERNEL,
-                anti_ringing: Exposure::FILTER.anti_ringing,
-            },
-        };
         let pose = self.movement.as_ref().zip(moments.first()).map(|(movement, moment)| movement.pose(moment.time));
-        let bytes = |target: &TargetView| {
+        let views = self.views_in(pose.as_ref())?;
+        let bytes = |job: &Self, target: &TargetView| {
             let pixels = target.view.width() * target.view.height().min(rows);
-            pixels * Exposure::most_bytes_a_pixel(&target.view, (self.world(target), filter))
+            pixels * Exposure::most_bytes_a_pixel(&target.view, (job.world(target), job.filter_of_blur(method)))
         };
-        let needed = if self.content.has_files() {
-            self.views_in(pose.as_ref())?.iter().map(bytes).max().unwrap_or(0) as u64
-        } else {
-            0
-        };
+        let with_rings = self.layers().filter(|job| job.content.has_files());
+        let needed =
+            with_rings.flat_map(|job| views.iter().map(move |target| bytes(job, target))).max().unwrap_or(0) as u64;
         self.has_room_for_rings = self.memory.beside_frame(self.frame_needs()).bytes >= needed;
         if self.has_room_for_rings {
             self.prepared = self.prepared.saturating_add(needed);
         }
         Ok(())
+    }
+
+    fn filter_of_blur(&self, method: BlurMethod) -> FilterSettings {
+        match method {
+            BlurMethod::Swept => self.filter,
+            BlurMethod::Ellipse => {
+                let Ewa { kernel, anti_ringing } = Exposure::FILTER;
+                FilterSettings { kind: FilterKind::Ewa, kernel, anti_ringing }
+            }
+        }
     }
 }

@@ -39,7 +39,7 @@ fn bands_of_large_windows_are_made_before_they_are_all_there() {
         let (mirrors, table) = (Mirrors::of::<FloatFormat>(&resampler), KernelTable::new(&resampler.filter.kernel));
         let mut band = Band::<FloatFormat>::default();
         let spill = |band: &mut Band<FloatFormat>| {
-            spilled += usize::from(band.weights.len() > 1 << 20);
+            spilled += usize::from(band.weights.len() > 1 << 16);
             most = most.max(band.weights.len());
             band.clear();
         };
@@ -47,7 +47,7 @@ fn bands_of_large_windows_are_made_before_they_are_all_there() {
         most = most.max(band.weights.len());
     }
     // The limit and one more patch, whose windows have a thousand texels each and some marks.
-    assert!(spilled > 0 && most < (1 << 20) + (1 << 17), "{spilled} times, {most} numbers");
+    assert!(spilled > 0 && most < (1 << 16) + (1 << 17), "{spilled} times, {most} numbers");
 }
 
 /// Checks that each pixel of a picture, in any mirror image, lies where its patch is said to be shown.
