@@ -190,6 +190,7 @@ impl FoundBackdrop {
             missing,
             memory,
             prepared: 0,
+            footprints: 0,
             decoded,
             input,
         };

@@ -76,6 +76,8 @@ pub(crate) struct ConvertJob {
     pub(crate) memory: MemoryBudget,
     /// Bytes that a filter or light makes of the input, with copies of pictures.
     pub(crate) prepared: u64,
+    /// Bytes of the weights of the texels under the largest pixels.
+    pub(super) footprints: u64,
     /// A picture that has been decoded to see what it is.
     pub(crate) decoded: DecodedPicture,
 }
@@ -281,6 +283,7 @@ impl ConvertJob {
             missing,
             memory,
             prepared: 0,
+            footprints: 0,
             decoded,
         };
         job.leave_finished(settings, purpose)?;
@@ -349,6 +352,7 @@ impl ConvertJob {
         for world in &self.worlds {
             filter.check(world).map_err(|error| usage(format!("{FILTER}: {error}")))?;
         }
+        self.footprints = self.footprint_bytes();
         self.memory.check_frame(self.frame_needs(), &self.input, &self.target)?;
         self.prepared = self.filter_bytes().max(self.table_bytes());
         let needs = self.frame_needs();

@@ -18,7 +18,9 @@ pub(crate) use resume::Resumed;
 
 pub(crate) use content::Content;
 pub(crate) use convert_job::{ConvertJob, Purpose};
-pub(crate) use memory_needs::{BAND, FrameNeeds, Held, STRIP, are_too_large, is_large, program_bytes, with_reserve};
+pub(crate) use memory_needs::{
+    BAND, Crowd, FrameNeeds, Held, STRIP, are_too_large, is_large, program_bytes, with_reserve,
+};
 #[cfg(fuzzing)]
 pub use origin::compared_origins;
 pub(crate) use origin::settings_of;

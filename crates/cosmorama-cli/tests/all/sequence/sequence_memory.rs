@@ -102,6 +102,8 @@ fn estimates_are_no_less_than_what_is_held_and_little_more() {
             ]
             .concat(),
         ),
+        // Texels crowd around a pole of the panorama, under pixels that are large.
+        ("few pixels", [&["convert", "sky.exr", "o.exr"][..], &dome("mirror-ball:pitch=20", "16"), &sky].concat()),
         ("formula", [&["convert", "builtin:checker", "o.png"][..], &dome("fulldome", "3072")].concat()),
         (
             "formula in frames",

@@ -9,7 +9,7 @@ use cosmorama_io::Format;
 
 use super::Explanation;
 use crate::input::{Input, InputView};
-use crate::job::{FrameNeeds, Held, are_too_large, compressed, program_bytes};
+use crate::job::{Crowd, FrameNeeds, Held, are_too_large, compressed, program_bytes};
 use crate::source::memory_budget::{area, read_bytes};
 use crate::target::Picture;
 
@@ -105,7 +105,8 @@ impl Explanation {
         let largest = self.pictures().iter().filter(is_part).map(|picture| area(size(picture))).max().unwrap_or(0);
         let prepared = reports.iter().map(|report| report.memory.levels as u64).max().unwrap_or(0);
         let needs = FrameNeeds::of_pictures(input, worlds, (pixels, largest), held).with_prepared(prepared);
-        let needs = needs.with_footprints(input.texels() as u64, self.pictures().iter().map(|picture| &picture.view));
+        let views = self.pictures().iter().map(|picture| &picture.view);
+        let needs = needs.with_footprints(Crowd::of(input).footprint_bytes(views));
         let needs = if are_too_large(sizes.iter().copied()) { needs.by_strips(files.format(), &sizes) } else { needs };
         let plan = |report: &explain::Report| {
             if held == Held::INTEGERS { report.memory.fixed_plan } else { report.memory.plan }

@@ -21,7 +21,7 @@ use crate::job::{Content, ConvertJob, FrameMemory};
 use crate::source::memory_budget::{area, read_bytes};
 use crate::target::{Sheet, Strip, Target, TargetView};
 
-use footprint::footprint_bytes;
+pub(crate) use footprint::Crowd;
 
 /// Bytes in which a job holds a texel of light, a pixel of a picture, and a pixel of its file's samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -155,9 +155,9 @@ impl FrameNeeds {
         Self { shared: views.map(table_bytes).fold(self.shared, u64::saturating_add), ..self }
     }
 
-    /// Adds the weights of the texels that pixels of these views see, of so many all around. They count where pixels are few.
-    pub(crate) fn with_footprints<'v>(self, texels: u64, views: impl Iterator<Item = &'v View>) -> Self {
-        Self { footprints: views.map(|view| footprint_bytes(texels, view)).max().unwrap_or(0), ..self }
+    /// Adds the weights of the texels under the largest pixels.
+    pub(crate) fn with_footprints(self, bytes: u64) -> Self {
+        Self { footprints: bytes, ..self }
     }
 
     /// Adds masks of views of these sizes, and the copy of one while it is made.
@@ -295,11 +295,15 @@ impl ConvertJob {
         let is_one = self.input.frames.len() <= 1 && !self.outputs.are_many();
         let needs = if is_one { needs } else { needs.of_many() };
         let views = self.target.views.iter().map(|target| &target.view);
-        let is_weighed = self.content.has_files() && self.filter.kind == FilterKind::Ewa && self.lighting.is_none();
-        let texels = if is_weighed { self.input.texels() as u64 } else { 0 };
-        let needs = needs.with_footprints(texels, views.clone());
+        let needs = needs.with_footprints(self.footprints);
         let needs = if self.has_masks() { needs.with_masks(views.map(size_of_view)) } else { needs };
         if self.is_by_strips() { needs.by_strips_of(&self.target) } else { needs }
+    }
+
+    /// Returns the bytes of the weights of the texels under its largest pixels.
+    pub(super) fn footprint_bytes(&self) -> u64 {
+        let views = self.target.views.iter().map(|target| &target.view);
+        if self.filter.kind == FilterKind::Ewa { Crowd::of(&self.input).footprint_bytes(views) } else { 0 }
     }
 
     /// Returns whether masks of its views are made: of what no view of the input covers, or of what lies outside the field of view.
