@@ -16,8 +16,8 @@ const MEASURED: usize = 64;
 /// Columns and rows of pixels under which texels are counted, at most. Footprints are wider than the steps between these.
 const COUNTED: usize = 24;
 
-/// Columns and rows of bunches of a view's texels, at most.
-const BUNCHES: usize = 48;
+/// Number of bunches of all texels, of which each view has one at least.
+const BUNCHES: usize = 48 * 48;
 
 /// Square of a footprint's radius in the tangent plane, for each steradian of its pixel: some 1.9 pixels.
 const FOOTPRINT: f64 = 3.6;
@@ -39,8 +39,10 @@ pub(crate) struct Crowd {
 impl Crowd {
     /// Counts the texels of the files that are read.
     pub(crate) fn of(input: &Input) -> Self {
-        let texels = input.texels() as f64;
-        Self { texels, bunches: input.present().flat_map(|(.., view)| bunches(view)).collect() }
+        let views = input.present().count();
+        let across = (1..BUNCHES).take_while(|across| across * across * views <= BUNCHES).last().unwrap_or(1);
+        let bunches = input.present().flat_map(|(.., view)| bunches(view, across)).collect();
+        Self { texels: input.texels() as f64, bunches }
     }
 
     /// Returns the bytes of the weights of texels under the largest pixels of these views, one for each thread.
@@ -55,7 +57,7 @@ impl Crowd {
         let even = self.texels * pixels(view, MEASURED).map(square).fold(0.0, f64::max) / 4.0;
         let count = |(i, j)| direction(view, i, j).map_or(0.0, |centre| self.count(centre, square((i, j))));
         let most = if even * WEIGHT < FEW { even } else { pixels(view, COUNTED).map(count).fold(even, f64::max) };
-        (most * WEIGHT) as u64 * threads as u64
+        ((most * WEIGHT) as u64).saturating_mul(threads as u64)
     }
 
     /// Returns the number of texels in a cap around a direction, whose shadow on the tangent plane has a radius of such a square: in half
@@ -69,11 +71,11 @@ impl Crowd {
     }
 }
 
-/// Returns the bunches of a view's texels.
-fn bunches(view: &View) -> impl Iterator<Item = (Direction, f64)> {
+/// Returns the bunches of a view's texels, in so many columns and rows at most.
+fn bunches(view: &View, across: usize) -> impl Iterator<Item = (Direction, f64)> {
     let (width, height) = size_of_view(view);
-    let texels = area((width, height)) as f64 / (width.min(BUNCHES) * height.min(BUNCHES)) as f64;
-    pixels(view, BUNCHES).filter_map(move |(i, j)| Some((direction(view, i, j)?, texels)))
+    let texels = area((width, height)) as f64 / (width.min(across) * height.min(across)) as f64;
+    pixels(view, across).filter_map(move |(i, j)| Some((direction(view, i, j)?, texels)))
 }
 
 /// Returns evenly spread pixels of a view, in so many columns and rows at most.
