@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 
 use cosmorama::explain;
+use cosmorama::filter::FilterKind;
 use cosmorama::raster::{Channels, Depth};
 use cosmorama::world::World;
 use cosmorama_io::Format;
@@ -106,7 +107,9 @@ impl Explanation {
         let prepared = reports.iter().map(|report| report.memory.levels as u64).max().unwrap_or(0);
         let needs = FrameNeeds::of_pictures(input, worlds, (pixels, largest), held).with_prepared(prepared);
         let views = self.pictures().iter().map(|picture| &picture.view);
-        let needs = needs.with_footprints(Crowd::of(input).footprint_bytes(views));
+        let is_weighed = self.filter.kind == FilterKind::Ewa;
+        let footprints = || self.pool.install(|| Crowd::of(input).footprint_bytes(views));
+        let needs = needs.with_footprints(if is_weighed { footprints() } else { 0 });
         let needs = if are_too_large(sizes.iter().copied()) { needs.by_strips(files.format(), &sizes) } else { needs };
         let plan = |report: &explain::Report| {
             if held == Held::INTEGERS { report.memory.fixed_plan } else { report.memory.plan }

@@ -10,12 +10,6 @@ use crate::source::memory_budget::area;
 /// Rows of a picture that one thread makes.
 const BAND_ROWS: usize = 32;
 
-/// Columns and rows in which a picture's pixels are measured, at most; in small pictures all are.
-const MEASURED: usize = 64;
-
-/// Columns and rows of pixels under which texels are counted, at most. Footprints are wider than the steps between these.
-const COUNTED: usize = 24;
-
 /// Number of bunches of all texels, of which each view has one at least.
 const BUNCHES: usize = 48 * 48;
 
@@ -25,47 +19,44 @@ const FOOTPRINT: f64 = 3.6;
 /// Bytes of a texel's weight, of its place, and of its indices in mirror images, with the room into which their lists grow.
 const WEIGHT: f64 = 90.0;
 
-/// Bytes of weights that need no closer look: at a pole of a panorama, where texels crowd, they are a hundred times as many.
-const FEW: f64 = (1 << 14) as f64;
+/// Number of bunches around which texels are counted, for all pictures together.
+const CENTRES: usize = 24 * 24;
 
-/// Texels of an input, in bunches. They crowd around the poles of a panorama, so that a footprint there has more of them than
-/// its part of the sphere.
+/// Texels of an input, in bunches. They crowd around the poles of a panorama and in views of a narrow field, so that a footprint there has
+/// more of them than its part of the sphere.
 pub(crate) struct Crowd {
-    texels: f64,
     /// Directions of bunches, and the number of texels in each.
     bunches: Vec<(Direction, f64)>,
 }
 
 impl Crowd {
-    /// Counts the texels of the files that are read.
+    /// Counts the texels of the files that are read, or of those that are planned.
     pub(crate) fn of(input: &Input) -> Self {
-        let views = input.present().count();
-        let across = (1..BUNCHES).take_while(|across| across * across * views <= BUNCHES).last().unwrap_or(1);
-        let bunches = input.present().flat_map(|(.., view)| bunches(view, across)).collect();
-        Self { texels: input.texels() as f64, bunches }
+        let present: Vec<&View> = input.present().map(|(.., view)| view).collect();
+        let views = if present.is_empty() { input.views().map(|view| &view.nominal).collect() } else { present };
+        let across = (1..BUNCHES).take_while(|across| across * across * views.len() <= BUNCHES).last().unwrap_or(1);
+        Self { bunches: views.into_iter().flat_map(|view| bunches(view, across)).collect() }
     }
 
-    /// Returns the bytes of the weights of texels under the largest pixels of these views, one for each thread.
-    pub(crate) fn footprint_bytes<'v>(&self, views: impl Iterator<Item = &'v View>) -> u64 {
-        views.map(|view| self.bytes_of(view)).max().unwrap_or(0)
+    /// Returns the bytes of the weights of texels under those pixels of these views that see most of them, one for each thread.
+    pub(crate) fn footprint_bytes<'v>(&self, views: impl Iterator<Item = &'v View> + Clone) -> u64 {
+        let centres = CENTRES.div_ceil(views.clone().count().max(1));
+        views.map(|view| self.bytes_of(view, centres)).max().unwrap_or(0)
     }
 
-    fn bytes_of(&self, view: &View) -> u64 {
+    fn bytes_of(&self, view: &View, centres: usize) -> u64 {
         let threads = view.height().div_ceil(BAND_ROWS).min(rayon::current_num_threads());
-        let square = |(i, j)| (FOOTPRINT * view.texel_solid_angle(i, j)).min(1.0);
-        // A cap of a small radius is a quarter of its square of the sphere, where texels lie evenly.
-        let even = self.texels * pixels(view, MEASURED).map(square).fold(0.0, f64::max) / 4.0;
-        let count = |(i, j)| direction(view, i, j).map_or(0.0, |centre| self.count(centre, square((i, j))));
-        let most = if even * WEIGHT < FEW { even } else { pixels(view, COUNTED).map(count).fold(even, f64::max) };
-        ((most * WEIGHT) as u64).saturating_mul(threads as u64)
+        let some = self.bunches.iter().step_by(self.bunches.len().div_ceil(centres).max(1));
+        let counts = some.filter_map(|(direction, _)| Some(self.count(*direction, solid_angle(view, *direction)?)));
+        ((counts.fold(0.0, f64::max) * WEIGHT) as u64).saturating_mul(threads as u64)
     }
 
-    /// Returns the number of texels in a cap around a direction, whose shadow on the tangent plane has a radius of such a square: in half
-    /// of the sphere at most, as filters see it.
-    fn count(&self, centre: Direction, square: f64) -> f64 {
+    /// Returns the number of texels in the footprint of a pixel of such a solid angle around a direction: in half of the sphere at most,
+    /// as filters see it.
+    fn count(&self, centre: Direction, solid_angle: f64) -> f64 {
         let is_inside = |direction: &Direction| {
             let cosine = direction.dot(centre);
-            cosine >= 0.0 && 1.0 - cosine * cosine <= square
+            cosine >= 0.0 && 1.0 - cosine * cosine <= FOOTPRINT * solid_angle
         };
         self.bunches.iter().filter(|(direction, _)| is_inside(direction)).map(|(_, texels)| texels).sum()
     }
@@ -75,19 +66,17 @@ impl Crowd {
 fn bunches(view: &View, across: usize) -> impl Iterator<Item = (Direction, f64)> {
     let (width, height) = size_of_view(view);
     let texels = area((width, height)) as f64 / (width.min(across) * height.min(across)) as f64;
-    pixels(view, across).filter_map(move |(i, j)| Some((direction(view, i, j)?, texels)))
-}
-
-/// Returns evenly spread pixels of a view, in so many columns and rows at most.
-fn pixels(view: &View, across: usize) -> impl Iterator<Item = (usize, usize)> {
     let some = move |count: usize| {
         let across = count.min(across);
         (0..across).map(move |index| (2 * index + 1) * count / (2 * across))
     };
-    let (width, height) = size_of_view(view);
-    some(height).flat_map(move |j| some(width).map(move |i| (i, j)))
+    let pixels = some(height).flat_map(move |j| some(width).map(move |i| PixelPoint::centre(i, j)));
+    pixels.filter_map(move |pixel| Some((view.direction(pixel)?, texels)))
 }
 
-fn direction(view: &View, i: usize, j: usize) -> Option<Direction> {
-    view.direction(PixelPoint::centre(i, j))
+/// Returns the solid angle of the pixel that sees a direction.
+fn solid_angle(view: &View, direction: Direction) -> Option<f64> {
+    let pixel = view.pixel(direction).filter(|pixel| view.shows(*pixel))?;
+    let index = |place: f64, count: usize| (place as usize).min(count - 1);
+    Some(view.texel_solid_angle(index(pixel.x, view.width()), index(pixel.y, view.height())))
 }
