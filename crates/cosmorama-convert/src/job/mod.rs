@@ -19,7 +19,7 @@ pub(crate) use resume::Resumed;
 pub(crate) use content::Content;
 pub(crate) use convert_job::{ConvertJob, Purpose};
 pub(crate) use memory_needs::{
-    BAND, Crowd, FrameNeeds, Held, STRIP, are_too_large, is_large, program_bytes, with_reserve,
+    BAND, FrameNeeds, Held, STRIP, are_too_large, footprint_bytes, is_large, program_bytes, with_reserve,
 };
 #[cfg(fuzzing)]
 pub use origin::compared_origins;

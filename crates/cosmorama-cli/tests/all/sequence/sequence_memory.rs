@@ -130,7 +130,7 @@ fn estimates_are_no_less_than_what_is_held_and_little_more() {
         })
         .collect();
     assert!(figures.iter().all(|figure| !figure.starts_with("WRONG")), "{}", figures.join("\n"));
-    // All texels lie under a few pixels: as many threads may hold them all, but one may come after the other.
+    // All texels lie under a few pixels. Each thread may hold them all, but seldom do two at once.
     let narrow = ["convert", "narrow.png", "o.png", "--from", "perspective:fov=4", "--missing", "black"];
     let [told, held] = estimate_and_peak(&bench, &[&narrow[..], &dome("equirect", "256")].concat());
     assert!(held <= told && told <= 4.0 * held, "narrow view: {told:.0} MiB told, {held:.0} held");

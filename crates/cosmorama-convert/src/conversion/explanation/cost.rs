@@ -3,14 +3,13 @@
 use std::collections::HashSet;
 
 use cosmorama::explain;
-use cosmorama::filter::FilterKind;
 use cosmorama::raster::{Channels, Depth};
 use cosmorama::world::World;
 use cosmorama_io::Format;
 
 use super::Explanation;
 use crate::input::{Input, InputView};
-use crate::job::{Crowd, FrameNeeds, Held, are_too_large, compressed, program_bytes};
+use crate::job::{FrameNeeds, Held, are_too_large, compressed, footprint_bytes, program_bytes};
 use crate::source::memory_budget::{area, read_bytes};
 use crate::target::Picture;
 
@@ -107,9 +106,7 @@ impl Explanation {
         let prepared = reports.iter().map(|report| report.memory.levels as u64).max().unwrap_or(0);
         let needs = FrameNeeds::of_pictures(input, worlds, (pixels, largest), held).with_prepared(prepared);
         let views = self.pictures().iter().map(|picture| &picture.view);
-        let is_weighed = self.filter.kind == FilterKind::Ewa;
-        let footprints = || self.pool.install(|| Crowd::of(input).footprint_bytes(views));
-        let needs = needs.with_footprints(if is_weighed { footprints() } else { 0 });
+        let needs = needs.with_footprints(self.pool.install(|| footprint_bytes(self.filter.kind, input, views)));
         let needs = if are_too_large(sizes.iter().copied()) { needs.by_strips(files.format(), &sizes) } else { needs };
         let plan = |report: &explain::Report| {
             if held == Held::INTEGERS { report.memory.fixed_plan } else { report.memory.plan }

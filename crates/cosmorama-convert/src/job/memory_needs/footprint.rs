@@ -1,6 +1,7 @@
 //! Memory for the weights of single pixels that see much of the world.
 
 use cosmorama::camera::{PixelPoint, View};
+use cosmorama::filter::FilterKind;
 use cosmorama::sphere::Direction;
 
 use super::size_of_view;
@@ -22,28 +23,38 @@ const WEIGHT: f64 = 90.0;
 /// Number of bunches around which texels are counted, for all pictures together.
 const CENTRES: usize = 24 * 24;
 
+/// Returns the bytes of the weights of texels under those pixels of these views that see most of them, one for each thread. Other filters than
+/// EWA hold none.
+pub(crate) fn footprint_bytes<'v>(
+    filter: FilterKind,
+    input: &Input,
+    views: impl Iterator<Item = &'v View> + Clone,
+) -> u64 {
+    if filter != FilterKind::Ewa {
+        return 0;
+    }
+    let crowd = Crowd::of(input);
+    let centres = CENTRES.div_ceil(views.clone().count().max(1));
+    views.map(|view| crowd.bytes_of(view, centres)).max().unwrap_or(0)
+}
+
 /// Texels of an input, in bunches. They crowd around the poles of a panorama and in views of a narrow field, so that a footprint there has
 /// more of them than its part of the sphere.
-pub(crate) struct Crowd {
+struct Crowd {
     /// Directions of bunches, and the number of texels in each.
     bunches: Vec<(Direction, f64)>,
 }
 
 impl Crowd {
     /// Counts the texels of the files that are read, or of those that are planned.
-    pub(crate) fn of(input: &Input) -> Self {
+    fn of(input: &Input) -> Self {
         let present: Vec<&View> = input.present().map(|(.., view)| view).collect();
         let views = if present.is_empty() { input.views().map(|view| &view.nominal).collect() } else { present };
         let across = (1..BUNCHES).take_while(|across| across * across * views.len() <= BUNCHES).last().unwrap_or(1);
         Self { bunches: views.into_iter().flat_map(|view| bunches(view, across)).collect() }
     }
 
-    /// Returns the bytes of the weights of texels under those pixels of these views that see most of them, one for each thread.
-    pub(crate) fn footprint_bytes<'v>(&self, views: impl Iterator<Item = &'v View> + Clone) -> u64 {
-        let centres = CENTRES.div_ceil(views.clone().count().max(1));
-        views.map(|view| self.bytes_of(view, centres)).max().unwrap_or(0)
-    }
-
+    /// Returns the bytes of the weights of texels under the pixel of a view that sees most of them, looked for at so many centres.
     fn bytes_of(&self, view: &View, centres: usize) -> u64 {
         let threads = view.height().div_ceil(BAND_ROWS).min(rayon::current_num_threads());
         let some = self.bunches.iter().step_by(self.bunches.len().div_ceil(centres).max(1));

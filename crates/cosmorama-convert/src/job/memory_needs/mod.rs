@@ -8,7 +8,6 @@ mod footprint;
 mod rings;
 
 use cosmorama::camera::View;
-use cosmorama::filter::FilterKind;
 use cosmorama::projection::ProjectionKind;
 use cosmorama::raster::{FixedLight, Rgba};
 use cosmorama::world::{StPixel, World};
@@ -21,7 +20,7 @@ use crate::job::{Content, ConvertJob, FrameMemory};
 use crate::source::memory_budget::{area, read_bytes};
 use crate::target::{Sheet, Strip, Target, TargetView};
 
-pub(crate) use footprint::Crowd;
+pub(crate) use footprint::footprint_bytes;
 
 /// Bytes in which a job holds a texel of light, a pixel of a picture, and a pixel of its file's samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -303,7 +302,7 @@ impl ConvertJob {
     /// Returns the bytes of the weights of the texels under its largest pixels.
     pub(super) fn footprint_bytes(&self) -> u64 {
         let views = self.target.views.iter().map(|target| &target.view);
-        if self.filter.kind == FilterKind::Ewa { Crowd::of(&self.input).footprint_bytes(views) } else { 0 }
+        footprint_bytes(self.filter.kind, &self.input, views)
     }
 
     /// Returns whether masks of its views are made: of what no view of the input covers, or of what lies outside the field of view.
