@@ -203,36 +203,45 @@ fn words_of(payload: &(dyn Any + Send)) -> &str {
     payload.downcast_ref::<&str>().copied().or_else(owned).unwrap_or("a panic")
 }
 
-/// Most bytes that deflate makes of one: 258 for each two bits.
-pub(crate) const DEFLATE: u64 = 1032;
-
-impl Header {
-    /// Refuses a header that declares more pixels than so many bytes can hold, before anything is done for each of so many
-    /// pixels: no compression is without limits.
-    pub(crate) fn check_capacity(&self, path: &Path, bytes: u64, pixels_per_byte: u64) -> Result<(), IoError> {
-        check_capacity(path, self.format, (self.width, self.height), (bytes, pixels_per_byte))
-    }
+/// How many pixels bytes of a file can hold: no compression is without limits.
+#[derive(Clone, Copy)]
+pub(crate) struct Density {
+    /// Bits of a pixel.
+    pub(crate) pixel_bits: u64,
+    /// Most bytes that a byte of the file becomes.
+    pub(crate) unpacked: u64,
 }
 
-/// Refuses a size of more pixels than so many bytes can hold, with so many pixels in each.
-pub(crate) fn check_capacity(
-    path: &Path,
-    format: Format,
-    (width, height): (usize, usize),
-    (bytes, pixels_per_byte): (u64, u64),
-) -> Result<(), IoError> {
-    let most = u128::from(bytes) * u128::from(pixels_per_byte);
-    if width as u128 * height as u128 <= most {
-        return Ok(());
+impl Density {
+    /// Most bytes that deflate makes of one: 258 for each two bits.
+    pub(crate) const DEFLATE: u64 = 1032;
+
+    /// Returns the density of so many pixels in each byte.
+    pub(crate) const fn pixels(per_byte: u64) -> Self {
+        Self { pixel_bits: 8, unpacked: per_byte }
     }
-    let reason = format_args!("its {bytes} bytes cannot hold {width}x{height} pixels");
-    Err(IoError::damaged(path, format, reason))
+
+    /// Refuses a size of more pixels than so many bytes can hold.
+    pub(crate) fn check(
+        self,
+        path: &Path,
+        format: Format,
+        (width, height): (usize, usize),
+        bytes: u64,
+    ) -> Result<(), IoError> {
+        let needed = (width as u128 * height as u128).saturating_mul(self.pixel_bits.into());
+        if needed <= u128::from(bytes).saturating_mul(u128::from(self.unpacked) * 8) {
+            return Ok(());
+        }
+        let reason = format_args!("its {bytes} bytes cannot hold {width}x{height} pixels");
+        Err(IoError::damaged(path, format, reason))
+    }
 }
 
 /// Returns the header of a file, unless it declares more pixels than the file can hold.
-pub(crate) fn held(path: &Path, source: Source<'_>, header: Header, pixels_per_byte: u64) -> Result<Header, IoError> {
+pub(crate) fn held(path: &Path, source: Source<'_>, header: Header, density: Density) -> Result<Header, IoError> {
     let bytes = source.seek(SeekFrom::End(0)).map_err(|error| IoError::open(path, error))?;
-    header.check_capacity(path, bytes, pixels_per_byte)?;
+    density.check(path, header.format, (header.width, header.height), bytes)?;
     Ok(header)
 }
 

@@ -6,14 +6,14 @@ use cosmorama::raster::{Channels, Depth, EncodedImage, FramePool, Samples};
 use image::codecs::tga::{TgaDecoder, TgaEncoder};
 use image::{ColorType, ExtendedColorType, ImageDecoder};
 
-use crate::codec::interface::{Codec, Sink, Source, held, whole_image};
+use crate::codec::interface::{Codec, Density, Sink, Source, held, whole_image};
 use crate::header::Picture;
 use crate::{Choice, Format, Header, ImageFile, IoError, Limits, MadeRows, Metadata, WriteOptions};
 
 const FORMAT: Format = Format::Tga;
 
 /// Most pixels that a byte of a file can hold: runs of 128, each of at least two bytes.
-const PIXELS_PER_BYTE: u64 = 64;
+const DENSITY: Density = Density::pixels(64);
 
 /// Codec of Truevision Targa.
 pub(crate) struct Tga;
@@ -21,7 +21,7 @@ pub(crate) struct Tga;
 impl Codec for Tga {
     fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
         let header = header(path, &decoder(path, &mut *source)?)?;
-        held(path, source, header, PIXELS_PER_BYTE)
+        held(path, source, header, DENSITY)
     }
 
     fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {

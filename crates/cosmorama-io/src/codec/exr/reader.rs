@@ -9,6 +9,7 @@ use exr::block::reader::{ChunksReader, Reader};
 use exr::block::{BlockIndex, UncompressedBlock};
 use exr::compression::Compression;
 use exr::error::Error;
+use exr::math::Vec2;
 use exr::meta::attribute::{EnvironmentMap, SampleType};
 use exr::meta::header::Header as Part;
 use exr::meta::{BlockDescription, MetaData};
@@ -22,8 +23,7 @@ use super::offer::Offer;
 use super::selection::Selection;
 use super::window::Crop;
 use crate::codec::behind::{count_marks, next_bytes, skip_padding};
-use crate::codec::interface::DEFLATE;
-use crate::codec::interface::{Source, check_capacity, contained, is_beside_others, whole_image};
+use crate::codec::interface::{Density, Source, contained, is_beside_others, whole_image};
 use crate::{Attribute, Carried, Choice, EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata};
 
 const FORMAT: Format = Format::Exr;
@@ -53,29 +53,35 @@ pub(crate) fn probe(path: &Path, source: Source<'_>, choice: &Choice) -> Result<
 /// Size of all data of a part, of which the picture may be a little, and how they are packed.
 struct DataWindow {
     size: (usize, usize),
-    pixels_per_byte: u64,
+    density: Density,
 }
 
 impl DataWindow {
     fn of(part: &Part) -> Self {
         let size = (part.layer_size.width(), part.layer_size.height());
-        Self { size, pixels_per_byte: pixels_per_byte(part) }
+        Self { size, density: density(part) }
     }
 
     /// Refuses more pixels than the file can hold, also those that are cut off from the picture.
     fn check(&self, path: &Path, source: Source<'_>) -> Result<(), IoError> {
         let bytes = source.seek(SeekFrom::End(0)).map_err(|error| IoError::open(path, error))?;
-        check_capacity(path, FORMAT, self.size, (bytes, self.pixels_per_byte))
+        self.density.check(path, FORMAT, self.size, bytes)
     }
 }
 
-/// Returns the most pixels that a byte of a file can hold; each has at least two bytes.
-fn pixels_per_byte(part: &Part) -> u64 {
-    match part.compression {
+/// Returns how many pixels a byte of a file can hold, with all channels of a part.
+fn density(part: &Part) -> Density {
+    let unpacked = match part.compression {
         // Squares of 8 × 8 pixels, or runs, packed a second time.
-        Compression::DWAA(_) | Compression::DWAB(_) => 1 << 16,
-        _ => DEFLATE,
-    }
+        Compression::DWAA(_) | Compression::DWAB(_) => return Density::pixels(1 << 16),
+        Compression::Uncompressed => 1,
+        // Of floats, three bytes out of four are packed.
+        Compression::PXR24 => Density::DEFLATE * 4 / 3,
+        _ => Density::DEFLATE,
+    };
+    let whole = part.channels.list.iter().filter(|channel| channel.sampling == Vec2(1, 1));
+    let bytes: usize = whole.map(|channel| channel.sample_type.bytes_per_sample()).sum();
+    Density { pixel_bits: 8 * bytes as u64, unpacked }
 }
 
 /// Adds the attributes of the part that is read.

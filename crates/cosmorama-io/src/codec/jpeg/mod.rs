@@ -12,7 +12,7 @@ use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
 use self::marks::Beside;
-use crate::codec::interface::{Codec, Sink, Source, held, whole_image};
+use crate::codec::interface::{Codec, Density, Sink, Source, held, whole_image};
 use crate::header::Picture;
 use crate::metadata::{ADOBE_GAMMA, gpano, iptc, orientation};
 use crate::{Carried, Exif, Format, Header, ImageFile, IoError, Limits, MadeRows, Metadata, WriteOptions};
@@ -20,7 +20,7 @@ use crate::{Carried, Exif, Format, Header, ImageFile, IoError, Limits, MadeRows,
 const FORMAT: Format = Format::Jpeg;
 
 /// Most pixels that a byte of a file can hold: squares of 8 × 8, each of at least one bit.
-const PIXELS_PER_BYTE: u64 = 8 * 64;
+const DENSITY: Density = Density::pixels(8 * 64);
 
 /// Codec of JPEG, baseline or progressive.
 pub(crate) struct Jpeg;
@@ -35,7 +35,7 @@ impl Codec for Jpeg {
         if beside.has_comment {
             Arc::make_mut(&mut header.metadata.carried).unread.push("a comment (COM)");
         }
-        held(path, source, header, PIXELS_PER_BYTE)
+        held(path, source, header, DENSITY)
     }
 
     fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
@@ -52,7 +52,7 @@ impl Codec for Jpeg {
             return Err(IoError::several(path, FORMAT, count, "pictures one behind the other"));
         }
         limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
-        header.check_capacity(path, bytes.len() as u64, PIXELS_PER_BYTE)?;
+        DENSITY.check(path, FORMAT, (header.width, header.height), bytes.len() as u64)?;
         let output = if header.channels == Channels::Grey { ColorSpace::Luma } else { ColorSpace::RGB };
         decoder.set_options(options().jpeg_set_out_colorspace(output));
         let mut samples = pool.take(header.width * header.height * header.channels.count());

@@ -3,13 +3,12 @@ use std::path::Path;
 
 use bytemuck::cast_slice_mut;
 use cosmorama::raster::{Channels, Depth, FramePool, Samples};
-use png::{BitDepth, ColorType, Decoder, DecodingError, Info, Reader, Transformations};
+use png::{BitDepth, ColorType, DecodeOptions, Decoder, DecodingError, Info, Reader, Transformations};
 
 use super::carried::{self, Found};
 use super::colour;
 use crate::codec::behind::{next_bytes, skip_padding};
-use crate::codec::interface::DEFLATE;
-use crate::codec::interface::{Source, held, whole_image};
+use crate::codec::interface::{Density, Source, held, whole_image};
 use crate::{Format, Header, ImageFile, IoError, Limits};
 
 const FORMAT: Format = Format::Png;
@@ -17,16 +16,19 @@ const FORMAT: Format = Format::Png;
 /// Most columns or rows that are read: as many as an output may have.
 const LONGEST_SIDE: u32 = 1_000_000;
 
-/// Most pixels that a byte of a file can hold: of one bit each.
-const PIXELS_PER_BYTE: u64 = 8 * DEFLATE;
+/// Most bytes that the decoder may take for rows and for a colour profile: two of the longest rows have 16 MB.
+const DECODER_BYTES: usize = 1 << 25;
 
 /// First bytes of every file.
 pub(super) const MARK: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 
 pub(crate) fn probe(path: &Path, source: Source<'_>) -> Result<Header, IoError> {
     let found = carried::read(&mut *source).map_err(|error| IoError::open(path, error))?;
-    let header = header(&decoder(path, &mut *source)?, found);
-    held(path, source, header, PIXELS_PER_BYTE)
+    let reader = decoder(path, &mut *source)?;
+    let pixel_bits = reader.info().bits_per_pixel() as u64;
+    let header = header(&reader, found);
+    drop(reader);
+    held(path, source, header, Density { pixel_bits, unpacked: Density::DEFLATE })
 }
 
 pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
@@ -130,12 +132,16 @@ fn skip_chunk(source: Source<'_>) -> std::io::Result<bool> {
 }
 
 fn decoder<'a>(path: &Path, source: Source<'a>) -> Result<Reader<Source<'a>>, IoError> {
-    // The decoder's own limit is for rows, profiles and texts; the image itself is checked against ours.
-    let mut decoder = Decoder::new(source);
+    let mut options = DecodeOptions::default();
+    // Files that are damaged in what they say of colours, or of how they were made, are not whole.
+    options.set_skip_ancillary_crc_failures(false);
+    // Texts are read by `carried`, each up to its own limit.
+    options.set_ignore_text_chunk(true);
+    let mut decoder = Decoder::new_with_options(source, options);
+    // The image itself is checked against our own limit.
+    decoder.set_limits(png::Limits { bytes: DECODER_BYTES });
     // Palettes, transparent colours and samples of less than eight bits become plain samples.
     decoder.set_transformations(Transformations::EXPAND);
-    // Texts are read by `carried`, each up to its own limit.
-    decoder.set_ignore_text_chunk(true);
     // A row beyond the decoder's limit would be reported as damaged.
     let (width, height) = decoder.read_header_info().map(Info::size).map_err(|error| damaged(path, &error))?;
     if width.max(height) > LONGEST_SIDE {

@@ -5,7 +5,7 @@ use cosmorama::raster::{Channels, Depth, EncodedImage, FramePool, Primaries, Sam
 
 use super::rgbe::{self, Rgbe};
 use crate::codec::behind::{next_bytes, skip_padding};
-use crate::codec::interface::{Codec, Sink, Source, held, whole_image};
+use crate::codec::interface::{Codec, Density, Sink, Source, held, whole_image};
 use crate::header::Picture;
 use crate::{Choice, Format, Header, ImageFile, IoError, Limits, MadeRows, Metadata, WriteOptions};
 
@@ -32,8 +32,8 @@ impl Codec for Hdr {
     fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
         let Preamble { header, .. } = Preamble::read(path, &mut *source)?;
         // A run may fill a row, which has at least one pixel of four bytes.
-        let most = header.width.div_ceil(4) as u64;
-        held(path, source, header, most)
+        let density = Density::pixels(header.width.div_ceil(4) as u64);
+        held(path, source, header, density)
     }
 
     fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {

@@ -7,15 +7,12 @@ use rayon::prelude::*;
 
 use super::packing::Packed;
 use super::texel::Texels;
-use crate::codec::interface::{Codec, Sink, Source, held, is_beside_others, whole_image};
+use crate::codec::interface::{Codec, Density, Sink, Source, is_beside_others, whole_image};
 use crate::{EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata, WriteOptions};
 
 /// Supported textures, for messages.
 pub(super) const EXPECTED: &str = "a cube of 8-bit, half or float texels, RGB9E5, R11G11B10, BC1 to BC3, BC6H or BC7, as it is or packed by Zstandard \
      or zlib; textures of BasisLZ and UASTC are unpacked by `ktx transcode`";
-
-/// Most pixels that a byte of a file can hold: those of BC1, of four bits each.
-const PIXELS_PER_BYTE: u64 = 2;
 
 /// A format of textures that holds cubes with their mip levels.
 pub(super) trait TextureFormat: Sync {
@@ -53,8 +50,8 @@ pub(super) struct WrittenCube {
 impl<T: TextureFormat> Codec for T {
     fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
         let texture = self.texture(path, &mut *source)?;
-        let header = texture.header(T::FORMAT);
-        if texture.packed.is_some() { Ok(header) } else { held(path, source, header, PIXELS_PER_BYTE) }
+        texture.check_capacity(path, T::FORMAT, source)?;
+        Ok(texture.header(T::FORMAT))
     }
 
     fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, _: &FramePool) -> Result<ImageFile, IoError> {
@@ -162,6 +159,16 @@ impl CubeTexture {
         row.saturating_mul(blocks)
     }
 
+    /// Refuses faces of more pixels than the file can hold.
+    fn check_capacity(&self, path: &Path, format: Format, source: Source<'_>) -> Result<(), IoError> {
+        let length = source.seek(SeekFrom::End(0)).map_err(|error| IoError::open(path, error))?;
+        let unpacked = self.packed.map_or(1, |packed| packed.packing.most_of_one());
+        let bytes = self.packed.map_or(length, |packed| packed.length.min(length));
+        let edge = self.edge as usize;
+        let density = Density { pixel_bits: self.texels.bits(), unpacked };
+        density.check(path, format, (edge, edge.saturating_mul(6)), bytes)
+    }
+
     /// Reads the faces, after checking that they exist and fit into memory.
     pub(super) fn read(
         &self,
@@ -172,6 +179,7 @@ impl CubeTexture {
     ) -> Result<ImageFile, IoError> {
         let header = self.header(format);
         limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
+        self.check_capacity(path, format, source)?;
         let bytes = self.face_bytes();
         let size = usize::try_from(bytes).map_err(|_| IoError::damaged(path, format, "it is larger than memory"))?;
         let faces = match self.packed {

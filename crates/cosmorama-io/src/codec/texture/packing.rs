@@ -1,7 +1,7 @@
 use std::io::{Read, SeekFrom};
 use std::path::Path;
 
-use crate::codec::interface::Source;
+use crate::codec::interface::{Density, Source};
 use crate::{Format, IoError};
 
 /// Supercompression of a level's texels, independent of their format.
@@ -11,6 +11,17 @@ pub(super) enum Packing {
     Zstandard,
     /// Deflate in zlib's wrapping.
     Zlib,
+}
+
+impl Packing {
+    /// Returns the most bytes that a packed byte becomes.
+    pub(super) fn most_of_one(self) -> u64 {
+        match self {
+            // Blocks of 128 KiB, each of at least a header of three bytes and a byte (RFC 8878, section 3.1.1.2).
+            Self::Zstandard => (128 << 10) / 4,
+            Self::Zlib => Density::DEFLATE,
+        }
+    }
 }
 
 /// Supercompressed texels in a file.

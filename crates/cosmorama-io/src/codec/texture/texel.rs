@@ -78,6 +78,11 @@ impl Texels {
         }
     }
 
+    /// Returns the bits of a texel.
+    pub(super) const fn bits(self) -> u64 {
+        8 * self.block_bytes() / (self.block_edge() * self.block_edge()) as u64
+    }
+
     /// Decodes the samples of a square face. `bytes` holds all of it, each row at a multiple of `alignment`.
     pub(super) fn decode(self, bytes: &[u8], edge: usize, alignment: usize) -> Samples {
         let row = edge.div_ceil(self.block_edge() as usize) * self.block_bytes() as usize;

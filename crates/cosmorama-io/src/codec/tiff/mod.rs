@@ -2,6 +2,7 @@
 
 mod carried;
 mod extent;
+mod jpeg_strips;
 mod reader;
 mod writer;
 

@@ -7,13 +7,13 @@ use tiff::decoder::{Decoder, DecodingResult, DecodingSampleType};
 use tiff::tags::{CompressionMethod, SampleFormat, Tag};
 use tiff::{ColorType, TiffError};
 
-use super::{carried, extent};
-use crate::codec::interface::DEFLATE;
-use crate::codec::interface::{Source, whole_image};
+use super::{carried, extent, jpeg_strips};
+use crate::codec::interface::{Density, Source, whole_image};
 use crate::{Format, Header, ImageFile, IoError, Limits, Metadata};
 
-const FORMAT: Format = Format::Tiff;
+pub(super) const FORMAT: Format = Format::Tiff;
 const EXPECTED: &str = "grey or RGB, with or without alpha, of 8 or 16 bits or floats, pixel by pixel";
+const COMPRESSIONS: &str = "none, PackBits, LZW, deflate or JPEG; `tiffcp -c lzw` writes the file again";
 
 pub(super) const ICC_PROFILE: Tag = Tag::Unknown(34675);
 
@@ -38,28 +38,51 @@ fn opened<'a>(path: &Path, source: Source<'a>) -> Result<Decoder<Source<'a>>, Io
 
 /// Refuses a header that declares more pixels than its strips or tiles can hold. Several may lie in the same place.
 fn check_capacity(path: &Path, decoder: &mut Decoder<Source<'_>>, header: &Header) -> Result<(), IoError> {
+    let density = density(path, decoder)?;
+    if decoder.find_tag_unsigned::<u16>(Tag::Compression).ok().flatten() == Some(CompressionMethod::ModernJPEG.to_u16())
+    {
+        jpeg_strips::check(path, decoder, header.height as u32)?;
+    }
     let lengths = [Tag::StripByteCounts, Tag::TileByteCounts]
         .into_iter()
         .find_map(|tag| decoder.find_tag_unsigned_vec::<u64>(tag).ok().flatten());
-    let method = decoder.find_tag_unsigned::<u16>(Tag::Compression).ok().flatten();
-    let (Some(lengths), Some(most)) = (lengths, pixels_per_byte(method)) else { return Ok(()) };
+    let Some(lengths) = lengths else { return Ok(()) };
     let whole = decoder.inner().seek(SeekFrom::End(0)).map_err(|error| IoError::open(path, error))?;
     let length = lengths.into_iter().map(|length| length.min(whole)).fold(0, u64::saturating_add);
     // Some programs count the bytes wrongly.
-    header.check_capacity(path, length.max(whole), most)
+    density.check(path, FORMAT, (header.width, header.height), length.max(whole))
 }
 
-/// Returns the most pixels, of one bit each, that a byte of a strip can hold; `None` where a compression has no such limit.
-fn pixels_per_byte(method: Option<u16>) -> Option<u64> {
-    Some(match method.map_or(CompressionMethod::None, CompressionMethod::from_u16_exhaustive) {
-        CompressionMethod::None => 8,
+/// Returns how many pixels a byte of a strip can hold. Refuses compressions that are not read.
+fn density(path: &Path, decoder: &mut Decoder<Source<'_>>) -> Result<Density, IoError> {
+    let fail = |error: TiffError| damaged(path, &error);
+    let method = decoder.find_tag_unsigned::<u16>(Tag::Compression).map_err(fail)?;
+    let unpacked = match method.map_or(CompressionMethod::None, CompressionMethod::from_u16_exhaustive) {
+        CompressionMethod::None => 1,
         // Runs of 128 in two bytes.
-        CompressionMethod::PackBits => 8 * 64,
-        CompressionMethod::Deflate | CompressionMethod::OldDeflate => 8 * DEFLATE,
+        CompressionMethod::PackBits => 64,
+        CompressionMethod::Deflate | CompressionMethod::OldDeflate => Density::DEFLATE,
         // Strings of 4096 in twelve bits.
-        CompressionMethod::LZW => 8 * 2731,
-        _ => return None,
-    })
+        CompressionMethod::LZW => 2731,
+        // Squares of 8 × 8, each of at least one bit.
+        CompressionMethod::ModernJPEG => return Ok(Density::pixels(8 * 64)),
+        other => return Err(IoError::unsupported(path, FORMAT, compression(other), COMPRESSIONS)),
+    };
+    let colour = decoder.colortype().map_err(fail)?;
+    Ok(Density { pixel_bits: u64::from(colour.bit_depth()) * u64::from(colour.num_samples()), unpacked })
+}
+
+/// Returns the name of a compression that is not read.
+fn compression(method: CompressionMethod) -> String {
+    let number = method.to_u16();
+    let name = match method {
+        CompressionMethod::Huffman | CompressionMethod::Fax3 | CompressionMethod::Fax4 => "of fax machines",
+        CompressionMethod::JPEG => "by JPEG in the old way of TIFF 6",
+        CompressionMethod::ZSTD => "by Zstandard",
+        CompressionMethod::WebP => "by WebP",
+        _ => "unknown here",
+    };
+    format!("compression {number}, {name}")
 }
 
 /// Refuses a file with further pages as large as the first, and reports other pages. Copies at a lower resolution, and
@@ -88,6 +111,7 @@ pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits, pool: &Fram
     let mut decoder = opened(path, file)?;
     let mut header = header(path, &mut decoder)?;
     limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
+    check_capacity(path, &mut decoder, &header)?;
     let mode = alpha_mode(&mut decoder);
     let mut decoder = decoder.with_limits(within(limits));
     let result = decode(&mut decoder, &header, pool).map_err(|error| damaged(path, &error))?;
@@ -182,7 +206,7 @@ fn decode(decoder: &mut Decoder<Source<'_>>, header: &Header, pool: &FramePool) 
     Ok(result)
 }
 
-fn damaged(path: &Path, error: &TiffError) -> IoError {
+pub(super) fn damaged(path: &Path, error: &TiffError) -> IoError {
     match error {
         TiffError::UnsupportedError(found) => IoError::unsupported(path, FORMAT, found, EXPECTED),
         TiffError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {

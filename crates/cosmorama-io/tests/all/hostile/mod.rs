@@ -1,5 +1,6 @@
 //! Files are hostile: errors, never panics, and no memory for what is only declared.
 
+mod capacity;
 mod checks;
 mod texts;
 
@@ -7,7 +8,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use crate::common::picture;
-use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
+use cosmorama::raster::{Channels, Depth};
 use cosmorama_io::{EnvMap, Format, IoError, Limits, Metadata, WriteOptions, probe, read, read_pairs, write};
 use proptest::prelude::*;
 use testkit::Mutants;
@@ -194,64 +195,6 @@ fn giant_sizes_are_refused_before_memory_is_taken() {
     giant("exr", &exr);
 
     giant("tif", &giant_tiff());
-}
-
-/// Files of each format whose headers declare more pixels than their bytes can hold: that costs no work for so many pixels.
-#[test]
-fn what_a_file_is_too_short_for_is_refused_by_its_header() {
-    let [mut png, mut jpeg, mut tga, mut dds] = ["png", "jpg", "tga", "dds"].map(written);
-    png[16..24].copy_from_slice(&[0, 0x0f, 0, 0, 0, 0, 0x0f, 0]);
-    let checksum = crc32(&png[12..29]);
-    png[29..33].copy_from_slice(&checksum.to_be_bytes());
-    let frame = jpeg.windows(2).position(|pair| pair == [0xff, 0xc0]).unwrap();
-    jpeg[frame + 5..frame + 9].copy_from_slice(&[0x3a, 0x98, 0x75, 0x30]);
-    tga[12..16].fill(0x7f);
-    let edge = 5000_u32.to_le_bytes();
-    dds[12..16].copy_from_slice(&edge);
-    dds[16..20].copy_from_slice(&edge);
-    let hdr = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 65535 +X 65535\n".to_vec();
-    let mut window = exr_of(65535, 4096);
-    put_box(&mut window, b"displayWindow\0box2i\0", [9, 9]);
-    let files = [
-        ("png", png, "983040x3840"),
-        ("jpg", jpeg, "30000x15000"),
-        ("tga", tga, "32639x32639"),
-        ("hdr", hdr, "65535x65535"),
-        ("exr", exr_of(65535, 4096), "65535x65535"),
-        // The picture is small, but not the data of which it is a part.
-        ("exr", window, "65535x65535"),
-        ("tif", giant_tiff(), "65535x65535"),
-        ("dds", dds, "5000x30000"),
-    ];
-    let folder = tempfile::tempdir().unwrap();
-    for (extension, bytes, size) in files {
-        let path = folder.path().join(format!("lie.{extension}"));
-        std::fs::write(&path, &bytes).unwrap();
-        let error = probe(&path).unwrap_err();
-        let message = error.to_string();
-        assert!(matches!(error, IoError::Damaged { .. }), "{message}");
-        assert!(message.contains(&format!("its {} bytes cannot hold {size} pixels", bytes.len())), "{message}");
-    }
-}
-
-/// The most that compression does of one colour is held.
-#[test]
-fn pictures_of_one_colour_are_not_called_too_short() {
-    let folder = tempfile::tempdir().unwrap();
-    for extension in ["png", "jpg", "tif", "tga", "hdr", "exr"] {
-        let path = folder.path().join(format!("flat.{extension}"));
-        let format = Format::from_extension(&path).unwrap();
-        let depth = format.nearest_depth(Depth::Eight);
-        let count = 2000 * 1000 * 3;
-        let samples = match depth {
-            Depth::Eight => Samples::U8(vec![0; count]),
-            Depth::Half => Samples::Half(vec![half::f16::ZERO; count]),
-            _ => Samples::Float(vec![0.0; count]),
-        };
-        let image = EncodedImage::new(2000, 1000, Channels::Rgb, depth, samples).unwrap();
-        write(&path, &image, &WriteOptions::default()).unwrap();
-        assert_eq!(probe(&path).unwrap().width, 2000, "{extension}");
-    }
 }
 
 /// A text of which the decoder would print a line of its own, for the user to wonder at.
