@@ -112,11 +112,17 @@ fn with_frames_at_times(settings: Conversion) -> Result<Conversion> {
     };
     is_one_file(&*files, input, video)?;
     let Some(count) = videos.count(video)? else { return refused("is a stream whose end is not known") };
-    let (frames, rate) = match (videos.rate(video)?, videos.begins(video)?) {
-        (Some(rate), _) => (FrameList::new(times.frames(rate, count)), format!("at {rate} a second")),
-        (None, Some(begins)) => (FrameList::new(times.frames_among(&begins)), "at a rate that varies".to_owned()),
+    let varies = || "at a rate that varies".to_owned();
+    let (frames, beyond, rate) = match (videos.rate(video)?, videos.begins(video)?) {
+        (Some(rate), _) => {
+            (FrameList::new(times.frames(rate, count)), times.beyond(rate, count), format!("at {rate} a second"))
+        }
+        (None, Some(begins)) => (FrameList::new(times.frames_among(&begins)), times.beyond_among(&begins), varies()),
         (None, None) => return refused("says no frame rate"),
     };
+    if let Some(range) = beyond {
+        bail!(NotFound: "{FRAMES} {range}: {input} ends before that; it has {count} frames, {rate}");
+    }
     if frames.frames().is_empty() {
         bail!(NotFound: "{FRAMES} {times}: {input} has no frame then; it has {count}, {rate}");
     }

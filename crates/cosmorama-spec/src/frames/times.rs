@@ -47,10 +47,30 @@ struct Range {
 const SECOND: u64 = 1_000_000_000;
 
 impl TimeRanges {
-    /// Returns whether a list of frames has times in place of numbers.
+    /// Returns whether a list of frames has times in place of numbers, also where their hours are missing: no number has a colon
+    /// before a dash, or a point.
     pub fn are_meant(text: &str) -> bool {
         let first = text.split([',', '-']).next().unwrap_or_default();
-        first.matches(':').count() > 1
+        let is_followed_by_dash = text[first.len()..].starts_with('-');
+        let colons = first.matches(':').count();
+        colons > 1 || colons == 1 && (is_followed_by_dash || first.contains('.'))
+    }
+
+    /// Returns the first range, as typed, that ends behind a video of `count` frames, or a single time at which it shows none.
+    pub fn beyond(&self, rate: FrameRate, count: u64) -> Option<String> {
+        let is_beyond = |range: &&Range| match range.end {
+            Some(end) => end.frames_before(rate) > count,
+            None => range.first.shown(rate) >= count,
+        };
+        self.0.iter().find(is_beyond).map(ToString::to_string)
+    }
+
+    /// Returns the first range that ends behind a video of variable rate, or begins there, as [`Self::frames_among`] takes it. Its last
+    /// frame is shown as long as the longest one before it.
+    pub fn beyond_among(&self, begins: &[u64]) -> Option<String> {
+        let longest = begins.windows(2).map(|pair| pair[1] - pair[0]).max().unwrap_or(u64::MAX);
+        let end = begins.last().map_or(0, |last| last.saturating_add(longest));
+        self.0.iter().find(|range| range.end.map_or(range.first.0 >= end, |last| last.0 > end)).map(ToString::to_string)
     }
 
     /// Returns the numbers of the frames that begin in these ranges, and of those that are shown at single times, in a video of
@@ -127,12 +147,16 @@ impl fmt::Display for TimeRanges {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (index, range) in self.0.iter().enumerate() {
             let separator = if index == 0 { "" } else { "," };
-            write!(f, "{separator}{}", range.first)?;
-            if let Some(end) = range.end {
-                write!(f, "-{end}")?;
-            }
+            write!(f, "{separator}{range}")?;
         }
         Ok(())
+    }
+}
+
+impl fmt::Display for Range {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.first)?;
+        self.end.map_or(Ok(()), |end| write!(f, "-{end}"))
     }
 }
 
@@ -215,8 +239,24 @@ mod tests {
     }
 
     #[test]
+    fn what_lies_behind_the_end_is_found() {
+        let beyond = |text: &str| text.parse::<TimeRanges>().unwrap().beyond(FILM, 24);
+        assert_eq!((beyond("00:00:00-00:00:01,00:00:00.99"), beyond("00:00:00.9-00:00:01")), (None, None));
+        assert_eq!(beyond("00:00:00.5,00:00:00.5-00:00:01.01").as_deref(), Some("00:00:00.5-00:00:01.01"));
+        assert_eq!(beyond("00:00:01").as_deref(), Some("00:00:01"));
+        let begins = [0, 40, 100, 1000].map(|milliseconds: u64| milliseconds * 1_000_000);
+        let among = |text: &str| text.parse::<TimeRanges>().unwrap().beyond_among(&begins);
+        assert_eq!((among("00:00:00-00:00:01.9"), among("00:00:01.8")), (None, None));
+        assert_eq!(among("00:00:00-00:00:01.91").as_deref(), Some("00:00:00-00:00:01.91"));
+        assert_eq!(among("00:00:01.9").as_deref(), Some("00:00:01.9"));
+    }
+
+    #[test]
     fn times_and_numbers_are_told_apart() {
         assert!(["00:00:01", "0:00:01-0:00:02", "0:0:1.5,0:0:2"].into_iter().all(TimeRanges::are_meant));
+        // Times without hours are refused as such.
+        assert!(["00:00.2", "00:01-00:02", "1:30.5-1:31"].into_iter().all(TimeRanges::are_meant));
+        assert!(refused("00:01-00:02").contains("no time of hours:minutes:seconds"));
         assert!(!["1-10:2", "5", "1:3", "", "1-3,7-20:2"].into_iter().any(TimeRanges::are_meant));
     }
 
