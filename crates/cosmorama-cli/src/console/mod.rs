@@ -97,7 +97,7 @@ impl Console {
         let text = self.told(text);
         self.log.error(&text);
         if self.is_for_engine.load(Ordering::Relaxed) {
-            say(format_args!("openjd_fail: {}", text.replace('\n', " ")));
+            say_failure(&text);
         }
     }
 
@@ -120,6 +120,11 @@ impl Console {
             result => result.context("cannot write to standard output"),
         }
     }
+}
+
+/// Tells an engine of Open Job Description why the work ends.
+pub(crate) fn say_failure(text: &str) {
+    say(format_args!("openjd_fail: {}", text.replace('\n', " ")));
 }
 
 /// Prints a line on standard error. If nobody reads it any more, since a pipe is closed or a disk is full, the work

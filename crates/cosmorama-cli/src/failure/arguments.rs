@@ -9,7 +9,7 @@ use cosmorama_spec::{Size, SpecError, SpecKind, WordError, WordKind, nearest};
 
 use super::{no_projection, spec_key, unknown_option, unknown_verb};
 use crate::args::{self, examples};
-use crate::console::say;
+use crate::console::{say, say_failure};
 
 /// Words of the command line, without the program's own name.
 pub(super) struct Typed(Vec<String>);
@@ -61,7 +61,12 @@ fn is_value(word: &str) -> bool {
 pub(crate) fn report_arguments(error: &Error) -> ExitCode {
     if error.use_stderr() && error.kind() != ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
         let words = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
-        say(format_args!("error: {}", message(error, &Typed::new(words)).trim_end()));
+        let typed = Typed::new(words);
+        let message = message(error, &typed);
+        say(format_args!("error: {}", message.trim_end()));
+        if typed.value("--progress") == Some("openjd") {
+            say_failure(message.trim_end());
+        }
     } else {
         // If this fails, nobody reads messages either.
         let _ = error.print();

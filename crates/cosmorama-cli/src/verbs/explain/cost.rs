@@ -9,19 +9,19 @@ pub(super) fn text(costs: &[SequenceCost]) -> String {
     let mut text = "\n".to_owned();
     for cost in costs {
         text += &format!(
-            "cost     {}: {} for a picture, {} for a sequence; about {:.0} frames a core-hour; {} of disk for 1,000 frames\n",
+            "cost     {}: {} for a picture, {} for a sequence; about {} frames a core-hour; {} of disk for 1,000 frames\n",
             name(cost.files),
             mebibytes(cost.picture_bytes),
             mebibytes(cost.job_bytes),
-            cost.frames_a_core_hour(),
+            about(cost.frames_a_core_hour()),
             gigabytes(1000 * cost.frame_bytes)
         );
     }
     if let Some(cost) = costs.first() {
         text += &format!(
-            "         {SHOW} frames, {}: about {:.0} core-hours, {} of disk\n",
+            "         {SHOW} frames, {}: about {} core-hours, {} of disk\n",
             name(cost.files),
-            SHOW as f64 * cost.cpu_seconds / 3600.0,
+            about(SHOW as f64 * cost.cpu_seconds / 3600.0),
             gigabytes(SHOW * cost.frame_bytes)
         );
     }
@@ -50,6 +50,12 @@ fn name(files: CostedFiles) -> &'static str {
     }
 }
 
+/// Formats an amount with two significant digits at least.
+fn about(amount: f64) -> String {
+    let decimals = if amount < 0.1 { 3 } else { usize::from(amount < 10.0) + usize::from(amount < 1.0) };
+    format!("{amount:.decimals$}")
+}
+
 fn mebibytes(bytes: u64) -> String {
     format!("{} MiB", bytes.div_ceil(1 << 20))
 }
@@ -57,4 +63,15 @@ fn mebibytes(bytes: u64) -> String {
 /// Formats an amount of disk in units of powers of ten, as disks are sold.
 fn gigabytes(bytes: u64) -> String {
     format!("{:.1} GB", bytes as f64 / 1e9)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_amounts_are_not_nothing() {
+        let told = [0.004_2, 0.26, 1.26, 12.6, 1260.4].map(about);
+        assert_eq!(told, ["0.004", "0.26", "1.3", "13", "1260"]);
+    }
 }
