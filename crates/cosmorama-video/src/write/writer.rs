@@ -154,7 +154,7 @@ impl VideoWriter {
         let complaint = self.log.rest();
         if !status.success() || complaint.as_deref().is_some_and(is_fatal) {
             let reason = complaint.unwrap_or_else(|| "it says nothing".to_owned());
-            return Err(VideoError::Encode { path: self.path, reason });
+            return Err(self.failed_by(reason));
         }
         self.plan.notes.extend(complaint.map(|text| format!("ffmpeg says: {text}")));
         self.add_boxes()?;
@@ -235,7 +235,15 @@ impl VideoWriter {
         if error.kind() != io::ErrorKind::BrokenPipe {
             return failed(error);
         }
-        VideoError::Encode { path: self.path.clone(), reason: self.log.last_words() }
+        let words = self.log.last_words();
+        self.failed_by(words)
+    }
+
+    /// Returns the error with ffmpeg's words, and with the user's own arguments, which may be what it complains of.
+    fn failed_by(&self, words: String) -> VideoError {
+        let own = self.settings.arguments.join(" ");
+        let reason = if own.is_empty() { words } else { format!("{words}; its further arguments were {own}") };
+        VideoError::Encode { path: self.path.clone(), reason }
     }
 }
 

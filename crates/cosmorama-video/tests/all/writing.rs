@@ -266,7 +266,7 @@ fn what_goes_wrong_in_ffmpeg_is_told() {
         ..WriteSettings::new((64, 32), rate())
     };
     let error = write(&ffmpeg, &path, &with(&["-preset", "nonsense"]), 200).unwrap_err().to_string();
-    assert!(error.contains("ffmpeg failed"), "{error}");
+    assert!(error.contains("ffmpeg failed") && error.ends_with("were -preset nonsense"), "{error}");
     let error = write(&ffmpeg, &path, &with(&["-frames:v", "3"]), 5).unwrap_err().to_string();
     assert!(error.contains("3 frames") || error.contains("ffmpeg failed"), "{error}");
     assert!(names(folder.path()).is_empty());
