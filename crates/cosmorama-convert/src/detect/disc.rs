@@ -8,9 +8,10 @@ use cosmorama::raster::{ColourChannel, Image, Rgba, Transfer};
 use cosmorama_spec::{Shape, Spec};
 
 use crate::diagnostic::{Code, Diagnostic, FROM, Remedy, Setting};
+use crate::source::memory_budget::area;
 
 /// Columns of the coarse copy in which a circle is looked for, at least.
-const COARSE: usize = 2048;
+const COARSE: usize = 512;
 /// Distances from the assumed circle, as parts of its radius, that cause a warning: for a measured circle, and for a
 /// rough one.
 const APART: [f64; 2] = [0.02, 0.05];
@@ -75,9 +76,19 @@ fn with_circle(spec: &Spec, circle: LensCircle) -> Option<Spec> {
     (is_whole && single.placement.mirror == Mirror::default()).then_some(spec)
 }
 
+/// Returns the distance of a coarse copy's columns.
+fn step(width: usize) -> usize {
+    (width / COARSE).max(1)
+}
+
+/// Returns the bytes of the coarse copy in which a circle is looked for.
+pub(crate) fn copy_bytes((width, height): (usize, usize)) -> u64 {
+    area((width / step(width), height / step(width))).saturating_mul(size_of::<Rgba>() as u64)
+}
+
 /// Finds a circle in a coarse copy, which has every so many columns and rows.
 fn coarsely((width, height): (usize, usize), light: impl Fn(usize, usize) -> Rgba) -> Option<Found> {
-    let step = (width / COARSE).max(1);
+    let step = step(width);
     // Only the brightest channel matters.
     let code = |i: usize, j: usize| {
         let [red, green, blue, _] = light(i * step + step / 2, j * step + step / 2).0;

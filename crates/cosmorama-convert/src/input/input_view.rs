@@ -30,7 +30,25 @@ pub struct InputView {
     pub wanted: bool,
 }
 
+/// Texels of a whole picture up to which it is surveyed, however little of it a file holds.
+const SURVEYED: usize = 1 << 24;
+
+/// Part of a larger picture, one in so many, that a file holds at least where the whole is surveyed.
+const LEAST_PART: usize = 64;
+
 impl InputView {
+    /// Takes what the file holds for all of the view, where that is little of a huge picture. A survey of the whole would take minutes
+    /// and gigabytes, by what a short header declares; so the rest counts as shown by no view.
+    pub(crate) fn narrow_to_file(&mut self) {
+        let Some((held, canvas)) = &mut self.window else { return };
+        let texels = |view: &View| view.width().saturating_mul(view.height());
+        let whole = texels(&self.nominal);
+        if self.mask.is_none() && whole > SURVEYED && texels(held).saturating_mul(LEAST_PART) < whole {
+            self.nominal = held.clone();
+            *canvas = Canvas { width: held.width(), height: held.height(), left: 0, top: 0 };
+        }
+    }
+
     /// Converts the input's view to a view of a world, with the geometry of its whole picture or of its file.
     pub(crate) fn world_view(&self, view: View) -> WorldView {
         WorldView { name: self.name.clone(), view, blend: self.blend, mask: self.mask.clone() }

@@ -21,8 +21,8 @@ use super::options::{check_file_options, filter};
 use crate::colour::{LayerPlan, Light, check_choice, check_labels, check_light};
 use crate::detect::unless_damaged;
 use crate::diagnostic::{Code, Diagnostic, FILTER, IN_PATH, MISSING, MOTION, PATH, Result, SCALE, SHUTTER, YAW, usage};
-use crate::input::Input;
 use crate::input::spec_files::st_map::settled;
+use crate::input::{Input, InputView};
 use crate::job::coverage::{Coverage, whole_worlds};
 use crate::job::origin::Origin;
 use crate::job::{Outputs, Space};
@@ -343,6 +343,7 @@ impl ConvertJob {
             None => vec![Shot { frames: Vec::new(), views: self.target.views.clone() }],
         };
         let Self { input, filter, memory, .. } = self;
+        input.worlds.iter_mut().flatten().for_each(InputView::narrow_to_file);
         let whole = whole_worlds(input, *memory)?;
         if self.lighting.is_some() {
             (self.coverage, self.worlds) = Coverage::of_sphere(input, whole, self.missing)?;
@@ -352,7 +353,7 @@ impl ConvertJob {
         for world in &self.worlds {
             filter.check(world).map_err(|error| usage(format!("{FILTER}: {error}")))?;
         }
-        self.footprints = self.footprint_bytes();
+        self.footprints = self.footprint_bytes(&shots);
         self.memory.check_frame(self.frame_needs(), &self.input, &self.target)?;
         self.prepared = self.filter_bytes().max(self.table_bytes());
         let needs = self.frame_needs();

@@ -233,8 +233,8 @@ fn newer_input(job: &ConvertJob, frame: Option<u64>, output: &Path) -> Option<Pa
 fn otherwise(path: &Path, parts: &[String]) -> ConvertError {
     let told = parts.iter().map(|part| match part.as_str() {
         "geometry" => "geometry (projections, size or orientation)",
-        "pose" => "poses (path, turn or shutter)",
-        "filter" => "filter",
+        "pose" => "poses (orientation, path, turn or shutter)",
+        "filter" => "filter settings",
         "colour" => "colours, samples or layers",
         _ => "inputs",
     });

@@ -72,7 +72,8 @@ impl<P> Image<P> {
 
     /// Creates an image by computing each pixel from column and row.
     pub fn from_fn(width: usize, height: usize, mut pixel: impl FnMut(usize, usize) -> P) -> Self {
-        let pixels = (0..height).flat_map(|j| (0..width).map(move |i| (i, j))).map(|(i, j)| pixel(i, j)).collect();
+        let mut pixels = Vec::with_capacity(width * height);
+        pixels.extend((0..height).flat_map(|j| (0..width).map(move |i| (i, j))).map(|(i, j)| pixel(i, j)));
         Self { width, height, pixels }
     }
 

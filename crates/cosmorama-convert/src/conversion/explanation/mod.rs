@@ -128,6 +128,7 @@ impl ExplanationSettings {
         warnings.extend(input.diagnostics());
         warnings.extend(pictures.first().and_then(|picture| aspect::warning(geometry, &picture.view)));
         input.fit_eyes(pictures.iter().any(|picture| picture.eye.is_some()), warnings);
+        input.worlds.iter_mut().flatten().for_each(InputView::narrow_to_file);
         let filter = filter(&self.geometry, warnings);
         Ok((input, pictures, movement, filter))
     }

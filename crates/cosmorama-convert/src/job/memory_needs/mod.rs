@@ -15,7 +15,9 @@ use cosmorama_builtin::{DirectionMap, DirectionPixel};
 use cosmorama_io::{Format, Header};
 
 use crate::colour::Light;
+use crate::detect::disc;
 use crate::input::{Input, InputView};
+use crate::job::gaps::Shot;
 use crate::job::{Content, ConvertJob, FrameMemory};
 use crate::source::memory_budget::{area, read_bytes};
 use crate::target::{Sheet, Strip, Target, TargetView};
@@ -91,6 +93,8 @@ pub(crate) struct FrameNeeds {
     footprints: u64,
     /// Masks of pixels that no view covers.
     masks: u64,
+    /// Copy of the light in which a lens's circle is looked for.
+    looked_at: u64,
     /// Samples of the pictures.
     encoded: u64,
     /// Whether the pictures are made strip by strip.
@@ -143,6 +147,7 @@ impl FrameNeeds {
             piece: largest.saturating_mul(held.pixel),
             footprints: 0,
             masks: 0,
+            looked_at: looked_at_bytes(input),
             encoded: pixels.saturating_mul(held.encoded),
             is_by_strips: false,
         };
@@ -226,8 +231,9 @@ impl FrameNeeds {
         let band = if is_kept { u64::MAX } else { (BAND * size_of::<Rgba>()) as u64 };
         let (first, last) = (sum([all, scratch.max(self.light.min(band))]), sum([self.light, all.min(band)]));
         let filtered = sum([self.light, self.prepared, self.pictures, self.piece, self.footprints, self.masks]);
+        let looked_at = self.light.saturating_add(self.looked_at);
         let written = sum([self.pictures, self.encoded]);
-        self.shared.saturating_add(first.max(last).max(filtered).max(written))
+        self.shared.saturating_add(first.max(last).max(looked_at).max(filtered).max(written))
     }
 
     /// Returns the bytes of a frame of a sequence, without what all share: the next one is read, and the one before written, while it
@@ -299,9 +305,11 @@ impl ConvertJob {
         if self.is_by_strips() { needs.by_strips_of(&self.target) } else { needs }
     }
 
-    /// Returns the bytes of the weights of the texels under its largest pixels.
-    pub(super) fn footprint_bytes(&self) -> u64 {
-        let views = self.target.views.iter().map(|target| &target.view);
+    /// Returns the bytes of the weights of the texels under its largest pixels, in a few of its shots.
+    pub(super) fn footprint_bytes(&self, shots: &[Shot]) -> u64 {
+        const SHOTS: usize = 16;
+        let some = shots.iter().step_by(shots.len().div_ceil(SHOTS).max(1));
+        let views = some.flat_map(|shot| &shot.views).map(|target| &target.view);
         footprint_bytes(self.filter.kind, &self.input, views)
     }
 
@@ -425,6 +433,17 @@ fn pixels_of(view: &View) -> u64 {
 
 fn size_of_view(view: &View) -> (usize, usize) {
     (view.width(), view.height())
+}
+
+/// Returns the bytes of the copy in which the circle of a lens is looked for.
+fn looked_at_bytes(input: &Input) -> u64 {
+    let views: Vec<&InputView> = input.views().collect();
+    match views[..] {
+        [view] if matches!(view.nominal.projection, ProjectionKind::Fisheye(_) | ProjectionKind::MirrorBall(_)) => {
+            disc::copy_bytes(size_of_view(&view.nominal))
+        }
+        _ => 0,
+    }
 }
 
 /// Returns the bytes of tables that a view's projection holds.

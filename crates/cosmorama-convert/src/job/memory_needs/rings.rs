@@ -7,6 +7,7 @@ use super::STRIP;
 use crate::diagnostic::Result;
 use crate::job::ConvertJob;
 use crate::settings::BlurMethod;
+use crate::source::memory_budget::area;
 use crate::target::TargetView;
 
 impl ConvertJob {
@@ -16,12 +17,12 @@ impl ConvertJob {
         let pose = self.movement.as_ref().zip(moments.first()).map(|(movement, moment)| movement.pose(moment.time));
         let views = self.views_in(pose.as_ref())?;
         let bytes = |job: &Self, target: &TargetView| {
-            let pixels = target.view.width() * target.view.height().min(rows);
-            pixels * Exposure::most_bytes_a_pixel(&target.view, (job.world(target), job.filter_of_blur(method)))
+            let pixels = area((target.view.width(), target.view.height().min(rows)));
+            let of_pixel = Exposure::most_bytes_a_pixel(&target.view, (job.world(target), job.filter_of_blur(method)));
+            pixels.saturating_mul(of_pixel as u64)
         };
         let with_rings = self.layers().filter(|job| job.content.has_files());
-        let needed =
-            with_rings.flat_map(|job| views.iter().map(move |target| bytes(job, target))).max().unwrap_or(0) as u64;
+        let needed = with_rings.flat_map(|job| views.iter().map(move |target| bytes(job, target))).max().unwrap_or(0);
         self.has_room_for_rings = self.memory.beside_frame(self.frame_needs()).bytes >= needed;
         if self.has_room_for_rings {
             self.prepared = self.prepared.saturating_add(needed);
