@@ -203,7 +203,7 @@ fn words_of(payload: &(dyn Any + Send)) -> &str {
     payload.downcast_ref::<&str>().copied().or_else(owned).unwrap_or("a panic")
 }
 
-/// How many pixels bytes of a file can hold: no compression is without limits.
+/// Density of pixels in the bytes of a file: no compression is without limits.
 #[derive(Clone, Copy)]
 pub(crate) struct Density {
     /// Bits of a pixel.

@@ -11,8 +11,7 @@ use crate::world::{Source, World};
 /// Figures of a conversion before it runs: coverage, needs, magnification and memory. It prints as readable text.
 ///
 /// Figures that would need every pixel of a large target are counted on a regular subset of at least 130 000 pixels.
-/// The needed rectangles are exact, but those that the filter touches are a few texels too large where a target has more than
-/// 256 pixels for each texel of the world.
+/// The needed rectangles are exact.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
     /// Width and height of the target.
@@ -81,20 +80,10 @@ pub struct Memory {
     pub fixed_plan: usize,
 }
 
-/// Pixels of a target for each texel, beyond which the texels of each are not looked at: that took a minute for a dome of 8192² from a
-/// panorama of 128 × 64.
-const FINEST: usize = 256;
-
 impl Report {
     /// Computes the report of making `target` from `world`. The world needs no light, and may consist of planned views.
     pub fn of(world: &World, target: &View, filter: &FilterSettings) -> Self {
-        let targets = std::slice::from_ref(target);
-        let is_finest = target.width().saturating_mul(target.height()) / FINEST > world.texel_count();
-        let needs = if is_finest {
-            Needs::at_most(world, targets, filter)
-        } else {
-            Needs::of(world, targets, filter, Accuracy::Exact)
-        };
+        let needs = Needs::of(world, std::slice::from_ref(target), filter, Accuracy::Exact);
         let survey = Survey::of(world, target, filter);
         let centre = central_footprint(target);
         let view = |(index, source): (usize, &Source)| {

@@ -1,6 +1,6 @@
 //! That sequences keep what `--memory` promises.
 
-use crate::bench::{Bench, picture};
+use crate::bench::{Bench, assert_says, picture};
 use serde_json::Value;
 
 #[test]
@@ -105,6 +105,12 @@ fn estimates_are_no_less_than_what_is_held_and_little_more() {
         ),
         // Texels crowd around a pole of the panorama, under pixels that are large.
         ("few pixels", [&["convert", "sky.exr", "o.exr"][..], &dome("mirror-ball:pitch=20", "16"), &sky].concat()),
+        // A copy of the light is looked at for the lens's circle.
+        (
+            "fisheye",
+            [&["convert", "narrow.png", "o.png", "--from", "fisheye:fov=200"][..], &dome("fisheye:fov=160", "256")]
+                .concat(),
+        ),
         ("formula", [&["convert", "builtin:checker", "o.png"][..], &dome("fulldome", "3072")].concat()),
         (
             "formula in frames",
@@ -134,4 +140,18 @@ fn estimates_are_no_less_than_what_is_held_and_little_more() {
     let narrow = ["convert", "narrow.png", "o.png", "--from", "perspective:fov=4", "--missing", "black"];
     let [told, held] = estimate_and_peak(&bench, &[&narrow[..], &dome("equirect", "256")].concat());
     assert!(held <= told && told <= 4.0 * held, "narrow view: {told:.0} MiB told, {held:.0} held");
+}
+
+/// A header declares a huge canvas, of which the file holds next to nothing: that costs neither memory nor minutes.
+#[test]
+fn canvases_cost_what_files_hold_of_them() {
+    let bench = Bench::new();
+    bench.save("part.png", &picture(1, 16, 16));
+    let from = "equirect:canvas=40000x20000+9000+6000";
+    let convert = ["convert", "part.png", "o.png", "--from", from, "--to", "fulldome", "--size", "32"];
+    assert_says(&bench.fail(1, &convert), &["does not cover", "look where no view does"]);
+    let [_, held] = estimate_and_peak(&bench, &[&convert[..], &["--missing", "black"]].concat());
+    assert!(held < 64.0, "{held} MiB");
+    let told = bench.succeed(&["explain", "part.png", "--from", from, "--to", "fulldome", "--size", "32"]);
+    assert!(told.contains("part.png  16x16"), "{told}");
 }
