@@ -62,7 +62,8 @@ pub(crate) fn report_arguments(error: &Error) -> ExitCode {
     if error.use_stderr() && error.kind() != ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
         let words = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
         let typed = Typed::new(words);
-        let message = message(error, &typed);
+        // What was typed may hold what looks like a line for an engine.
+        let message = message(error, &typed).replace("\nopenjd_", "\n  openjd_");
         say(format_args!("error: {}", message.trim_end()));
         if typed.value("--progress") == Some("openjd") {
             say_failure(message.trim_end());

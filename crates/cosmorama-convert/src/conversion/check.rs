@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use cosmorama::explain;
 use cosmorama_io::FrameList;
+use cosmorama_spec::TimeRanges;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::videos;
@@ -112,12 +113,15 @@ fn with_frames_at_times(settings: Conversion) -> Result<Conversion> {
     };
     is_one_file(&*files, input, video)?;
     let Some(count) = videos.count(video)? else { return refused("is a stream whose end is not known") };
-    let varies = || "at a rate that varies".to_owned();
     let (frames, beyond, rate) = match (videos.rate(video)?, videos.begins(video)?) {
         (Some(rate), _) => {
-            (FrameList::new(times.frames(rate, count)), times.beyond(rate, count), format!("at {rate} a second"))
+            let length = format!("at {rate} a second, until {}", TimeRanges::time_of(rate, count));
+            (FrameList::new(times.frames(rate, count)), times.beyond(rate, count), length)
         }
-        (None, Some(begins)) => (FrameList::new(times.frames_among(&begins)), times.beyond_among(&begins), varies()),
+        (None, Some(begins)) => {
+            let frames = FrameList::new(times.frames_among(&begins));
+            (frames, times.beyond_among(&begins), "at a rate that varies".to_owned())
+        }
         (None, None) => return refused("says no frame rate"),
     };
     if let Some(range) = beyond {

@@ -10,7 +10,7 @@ use cosmorama_spec::{Shape, Spec};
 use crate::diagnostic::{Code, Diagnostic, FROM, Remedy, Setting};
 use crate::source::memory_budget::area;
 
-/// Columns of the coarse copy in which a circle is looked for, at least.
+/// Pixels along the shorter side of the coarse copy in which a circle is looked for, at least.
 const COARSE: usize = 512;
 /// Distances from the assumed circle, as parts of its radius, that cause a warning: for a measured circle, and for a
 /// rough one.
@@ -76,19 +76,19 @@ fn with_circle(spec: &Spec, circle: LensCircle) -> Option<Spec> {
     (is_whole && single.placement.mirror == Mirror::default()).then_some(spec)
 }
 
-/// Returns the distance of a coarse copy's columns.
-fn step(width: usize) -> usize {
-    (width / COARSE).max(1)
+/// Returns the distance of a coarse copy's columns, and of its rows.
+fn step((width, height): (usize, usize)) -> usize {
+    (width.min(height) / COARSE).max(1)
 }
 
 /// Returns the bytes of the coarse copy in which a circle is looked for.
-pub(crate) fn copy_bytes((width, height): (usize, usize)) -> u64 {
-    area((width / step(width), height / step(width))).saturating_mul(size_of::<Rgba>() as u64)
+pub(crate) fn copy_bytes(size @ (width, height): (usize, usize)) -> u64 {
+    area((width / step(size), height / step(size))).saturating_mul(size_of::<Rgba>() as u64)
 }
 
 /// Finds a circle in a coarse copy, which has every so many columns and rows.
 fn coarsely((width, height): (usize, usize), light: impl Fn(usize, usize) -> Rgba) -> Option<Found> {
-    let step = step(width);
+    let step = step((width, height));
     // Only the brightest channel matters.
     let code = |i: usize, j: usize| {
         let [red, green, blue, _] = light(i * step + step / 2, j * step + step / 2).0;

@@ -30,20 +30,27 @@ pub struct InputView {
     pub wanted: bool,
 }
 
-/// Texels of a whole picture up to which it is surveyed, however little of it a file holds.
+/// Texels of the largest whole picture that is surveyed however little of it a file holds.
 const SURVEYED: usize = 1 << 24;
 
-/// Part of a larger picture, one in so many, that a file holds at least where the whole is surveyed.
-const LEAST_PART: usize = 64;
+/// Texels of a huge whole picture for each one of its file, from which on the file alone is surveyed.
+const LITTLE: usize = 64;
 
 impl InputView {
-    /// Takes what the file holds for all of the view, where that is little of a huge picture. A survey of the whole would take minutes
-    /// and gigabytes, by what a short header declares; so the rest counts as shown by no view.
-    pub(crate) fn narrow_to_file(&mut self) {
-        let Some((held, canvas)) = &mut self.window else { return };
+    /// Takes what the file holds for the whole picture, where it is little of a huge one. A survey of the whole would take minutes and
+    /// gigabytes, by what a short header declares; so the rest counts as shown by no view.
+    pub(super) fn narrow_to_file(&mut self) {
         let texels = |view: &View| view.width().saturating_mul(view.height());
         let whole = texels(&self.nominal);
-        if self.mask.is_none() && whole > SURVEYED && texels(held).saturating_mul(LEAST_PART) < whole {
+        let is_little = |(held, _): &(View, Canvas)| texels(held).saturating_mul(LITTLE) < whole;
+        if whole > SURVEYED && self.window.as_ref().is_some_and(is_little) {
+            self.take_for_whole();
+        }
+    }
+
+    /// Takes what the file holds for the whole picture.
+    pub(crate) fn take_for_whole(&mut self) {
+        if let Some((held, canvas)) = &mut self.window {
             self.nominal = held.clone();
             *canvas = Canvas { width: held.width(), height: held.height(), left: 0, top: 0 };
         }

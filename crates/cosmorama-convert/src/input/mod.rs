@@ -65,6 +65,15 @@ impl Input {
         Self { worlds: Vec::new(), frames: vec![None], faces: None, beside: Vec::new() }
     }
 
+    /// Takes what a file holds for the whole picture, where it is little of a huge one, and shares its world with no other.
+    pub(crate) fn narrow_to_files(&mut self) {
+        for views in &mut self.worlds {
+            if let [view] = &mut views[..] {
+                view.narrow_to_file();
+            }
+        }
+    }
+
     /// Provides as many worlds as the output has eyes, and reports what is dropped or duplicated.
     pub(crate) fn fit_eyes(&mut self, stereo: bool, warnings: &mut Vec<Diagnostic>) {
         match (self.worlds.len(), stereo) {

@@ -21,9 +21,9 @@ use super::options::{check_file_options, filter};
 use crate::colour::{LayerPlan, Light, check_choice, check_labels, check_light};
 use crate::detect::unless_damaged;
 use crate::diagnostic::{Code, Diagnostic, FILTER, IN_PATH, MISSING, MOTION, PATH, Result, SCALE, SHUTTER, YAW, usage};
+use crate::input::Input;
 use crate::input::spec_files::st_map::settled;
-use crate::input::{Input, InputView};
-use crate::job::coverage::{Coverage, whole_worlds};
+use crate::job::coverage::{Coverage, check_pictures, whole_worlds};
 use crate::job::origin::Origin;
 use crate::job::{Outputs, Space};
 use crate::settings::{BlurMethod, Conversion, GeometrySettings, LightSettings};
@@ -343,8 +343,8 @@ impl ConvertJob {
             None => vec![Shot { frames: Vec::new(), views: self.target.views.clone() }],
         };
         let Self { input, filter, memory, .. } = self;
-        input.worlds.iter_mut().flatten().for_each(InputView::narrow_to_file);
-        let whole = whole_worlds(input, *memory)?;
+        check_pictures(input, *memory)?;
+        let whole = whole_worlds(input)?;
         if self.lighting.is_some() {
             (self.coverage, self.worlds) = Coverage::of_sphere(input, whole, self.missing)?;
             return self.keep_for_light();

@@ -21,10 +21,16 @@ pub(crate) enum Coverage {
     Continue(Beyond),
 }
 
-/// Returns the worlds of whole pictures, even if files are missing: one, or one for each eye.
-pub(crate) fn whole_worlds(input: &Input, memory: MemoryBudget) -> Result<Vec<World>> {
+/// Refuses whole pictures that are too large. Of others, those of which files hold little are narrowed to what they hold.
+pub(crate) fn check_pictures(input: &mut Input, memory: MemoryBudget) -> Result<()> {
     memory.check_pictures(input)?;
     input.views().try_for_each(check_sides)?;
+    input.narrow_to_files();
+    Ok(())
+}
+
+/// Returns the worlds of whole pictures, even if files are missing: one, or one for each eye.
+pub(crate) fn whole_worlds(input: &Input) -> Result<Vec<World>> {
     let world =
         |views: &Vec<InputView>| Ok(World::blended(views.iter().map(|view| view.world_view(view.nominal.clone())))?);
     input.worlds.iter().map(world).collect()

@@ -203,22 +203,29 @@ fn words_of(payload: &(dyn Any + Send)) -> &str {
     payload.downcast_ref::<&str>().copied().or_else(owned).unwrap_or("a panic")
 }
 
-/// Density of pixels in the bytes of a file: no compression is without limits.
+/// Density of pixels in the bytes of a file, at most: no compression is without limits.
 #[derive(Clone, Copy)]
 pub(crate) struct Density {
-    /// Bits of a pixel.
-    pub(crate) pixel_bits: u64,
-    /// Most bytes that a byte of the file becomes.
-    pub(crate) unpacked: u64,
+    pixels: u64,
+    /// Bytes that hold so many pixels.
+    bytes: u64,
 }
 
 impl Density {
     /// Most bytes that deflate makes of one: 258 for each two bits.
     pub(crate) const DEFLATE: u64 = 1032;
 
+    /// JPEG: squares of 8 × 8 pixels, each of at least one bit.
+    pub(crate) const JPEG: Self = Self::pixels(8 * 64);
+
     /// Returns the density of so many pixels in each byte.
-    pub(crate) const fn pixels(per_byte: u64) -> Self {
-        Self { pixel_bits: 8, unpacked: per_byte }
+    pub(crate) const fn pixels(in_byte: u64) -> Self {
+        Self { pixels: in_byte, bytes: 1 }
+    }
+
+    /// Returns the density of pixels of so many bits, where a byte of the file becomes at most so many bytes of them.
+    pub(crate) const fn of_bits(pixel_bits: u64, unpacked: u64) -> Self {
+        Self { pixels: 8 * unpacked, bytes: pixel_bits }
     }
 
     /// Refuses a size of more pixels than so many bytes can hold.
@@ -229,8 +236,8 @@ impl Density {
         (width, height): (usize, usize),
         bytes: u64,
     ) -> Result<(), IoError> {
-        let needed = (width as u128 * height as u128).saturating_mul(self.pixel_bits.into());
-        if needed <= u128::from(bytes).saturating_mul(u128::from(self.unpacked) * 8) {
+        let declared = (width as u128 * height as u128).saturating_mul(self.bytes.into());
+        if declared <= u128::from(bytes) * u128::from(self.pixels) {
             return Ok(());
         }
         let reason = format_args!("its {bytes} bytes cannot hold {width}x{height} pixels");
@@ -238,11 +245,17 @@ impl Density {
     }
 }
 
-/// Returns the header of a file, unless it declares more pixels than the file can hold.
-pub(crate) fn held(path: &Path, source: Source<'_>, header: Header, density: Density) -> Result<Header, IoError> {
-    let bytes = source.seek(SeekFrom::End(0)).map_err(|error| IoError::open(path, error))?;
-    density.check(path, header.format, (header.width, header.height), bytes)?;
-    Ok(header)
+/// Returns the length of a file, and goes back to its beginning.
+pub(crate) fn length(path: &Path, source: Source<'_>) -> Result<u64, IoError> {
+    let length = source.seek(SeekFrom::End(0)).and_then(|length| source.rewind().map(|()| length));
+    length.map_err(|error| IoError::open(path, error))
+}
+
+impl Header {
+    /// Refuses a size of more pixels than a file of so many bytes can hold.
+    pub(crate) fn check_density(&self, path: &Path, density: Density, bytes: u64) -> Result<(), IoError> {
+        density.check(path, self.format, (self.width, self.height), bytes)
+    }
 }
 
 /// Builds the image file of a header and its samples.

@@ -6,7 +6,7 @@ use cosmorama::raster::{Channels, Depth, EncodedImage, FramePool, Samples};
 use image::codecs::tga::{TgaDecoder, TgaEncoder};
 use image::{ColorType, ExtendedColorType, ImageDecoder};
 
-use crate::codec::interface::{Codec, Density, Sink, Source, held, whole_image};
+use crate::codec::interface::{Codec, Density, Sink, Source, length, whole_image};
 use crate::header::Picture;
 use crate::{Choice, Format, Header, ImageFile, IoError, Limits, MadeRows, Metadata, WriteOptions};
 
@@ -20,15 +20,19 @@ pub(crate) struct Tga;
 
 impl Codec for Tga {
     fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
-        let header = header(path, &decoder(path, &mut *source)?)?;
-        held(path, source, header, DENSITY)
+        let bytes = length(path, &mut *source)?;
+        let header = header(path, &decoder(path, source)?)?;
+        header.check_density(path, DENSITY, bytes)?;
+        Ok(header)
     }
 
     fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
+        let bytes = length(path, &mut *source)?;
         let alpha_declared = start(path, source)?[17] & 0x0f > 0;
         let decoder = decoder(path, source)?;
         let mut header = header(path, &decoder)?;
         limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
+        header.check_density(path, DENSITY, bytes)?;
         let mut samples = pool.take(header.width * header.height * header.channels.count());
         decoder.read_image(&mut samples).map_err(|error| IoError::damaged(path, FORMAT, error))?;
         // In pixels of 32 bits of which the header declares none as alpha, some writers store alpha, and others

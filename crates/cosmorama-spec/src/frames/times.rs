@@ -56,21 +56,28 @@ impl TimeRanges {
         colons > 1 || colons == 1 && (is_followed_by_dash || first.contains('.'))
     }
 
-    /// Returns the first range, as typed, that ends behind a video of `count` frames, or a single time at which it shows none.
+    /// Returns the first range, as typed, that ends behind a video of `count` frames by a frame or more, or a single time at which it
+    /// shows none. Programs round the lengths that they tell.
     pub fn beyond(&self, rate: FrameRate, count: u64) -> Option<String> {
         let is_beyond = |range: &&Range| match range.end {
-            Some(end) => end.frames_before(rate) > count,
+            Some(end) => end.shown(rate) > count,
             None => range.first.shown(rate) >= count,
         };
         self.0.iter().find(is_beyond).map(ToString::to_string)
     }
 
-    /// Returns the first range that ends behind a video of variable rate, or begins there, as [`Self::frames_among`] takes it. Its last
-    /// frame is shown as long as the longest one before it.
+    /// Returns the first range that ends behind a video of variable rate, or a single time that lies there. Its frames begin at these
+    /// nanoseconds, and the last one is shown twice as long, at most, as the longest before it.
     pub fn beyond_among(&self, begins: &[u64]) -> Option<String> {
         let longest = begins.windows(2).map(|pair| pair[1] - pair[0]).max().unwrap_or(u64::MAX);
-        let end = begins.last().map_or(0, |last| last.saturating_add(longest));
-        self.0.iter().find(|range| range.end.map_or(range.first.0 >= end, |last| last.0 > end)).map(ToString::to_string)
+        let end = begins.last().map_or(0, |last| last.saturating_add(longest.saturating_mul(2)));
+        self.0.iter().find(|range| range.end.unwrap_or(range.first).0 > end).map(ToString::to_string)
+    }
+
+    /// Returns the time at which a frame begins, as it is typed: that of the frame behind the last is a video's end.
+    pub fn time_of(rate: FrameRate, frame: u64) -> String {
+        let nanoseconds = u128::from(frame) * u128::from(rate.seconds) * u128::from(SECOND) / u128::from(rate.frames);
+        Time(u64::try_from(nanoseconds).unwrap_or(u64::MAX)).to_string()
     }
 
     /// Returns the numbers of the frames that begin in these ranges, and of those that are shown at single times, in a video of
@@ -242,13 +249,18 @@ mod tests {
     fn what_lies_behind_the_end_is_found() {
         let beyond = |text: &str| text.parse::<TimeRanges>().unwrap().beyond(FILM, 24);
         assert_eq!((beyond("00:00:00-00:00:01,00:00:00.99"), beyond("00:00:00.9-00:00:01")), (None, None));
-        assert_eq!(beyond("00:00:00.5,00:00:00.5-00:00:01.01").as_deref(), Some("00:00:00.5-00:00:01.01"));
+        assert_eq!(beyond("00:00:00.5,00:00:00.5-00:00:01.05").as_deref(), Some("00:00:00.5-00:00:01.05"));
+        assert_eq!(TimeRanges::time_of(FILM, 36), "00:00:01.5");
+        // Lengths as ffmpeg prints them, rounded.
+        let whole = |text: &str, rate, count| text.parse::<TimeRanges>().unwrap().beyond(rate, count);
+        assert_eq!(whole("00:00:00-00:00:06.67", FrameRate { frames: 30, seconds: 1 }, 200), None);
+        assert_eq!(whole("00:00:00-00:00:03.34", NTSC, 100), None);
         assert_eq!(beyond("00:00:01").as_deref(), Some("00:00:01"));
         let begins = [0, 40, 100, 1000].map(|milliseconds: u64| milliseconds * 1_000_000);
         let among = |text: &str| text.parse::<TimeRanges>().unwrap().beyond_among(&begins);
-        assert_eq!((among("00:00:00-00:00:01.9"), among("00:00:01.8")), (None, None));
-        assert_eq!(among("00:00:00-00:00:01.91").as_deref(), Some("00:00:00-00:00:01.91"));
-        assert_eq!(among("00:00:01.9").as_deref(), Some("00:00:01.9"));
+        assert_eq!((among("00:00:00-00:00:02.8"), among("00:00:02.7")), (None, None));
+        assert_eq!(among("00:00:00-00:00:02.81").as_deref(), Some("00:00:00-00:00:02.81"));
+        assert_eq!(among("00:00:02.9").as_deref(), Some("00:00:02.9"));
     }
 
     #[test]

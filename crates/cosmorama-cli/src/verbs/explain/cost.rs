@@ -52,8 +52,9 @@ fn name(files: CostedFiles) -> &'static str {
 
 /// Formats an amount with two significant digits at least.
 fn about(amount: f64) -> String {
-    let decimals = if amount < 0.1 { 3 } else { usize::from(amount < 10.0) + usize::from(amount < 1.0) };
-    format!("{amount:.decimals$}")
+    // That of the second digit.
+    let decimals = 1.0 - amount.max(1e-9).log10().floor();
+    format!("{amount:.*}", decimals.max(0.0) as usize)
 }
 
 fn mebibytes(bytes: u64) -> String {
@@ -62,7 +63,8 @@ fn mebibytes(bytes: u64) -> String {
 
 /// Formats an amount of disk in units of powers of ten, as disks are sold.
 fn gigabytes(bytes: u64) -> String {
-    format!("{:.1} GB", bytes as f64 / 1e9)
+    let gigabytes = bytes as f64 / 1e9;
+    if gigabytes < 1.0 { format!("{} GB", about(gigabytes)) } else { format!("{gigabytes:.1} GB") }
 }
 
 #[cfg(test)]
@@ -71,7 +73,8 @@ mod tests {
 
     #[test]
     fn small_amounts_are_not_nothing() {
-        let told = [0.004_2, 0.26, 1.26, 12.6, 1260.4].map(about);
-        assert_eq!(told, ["0.004", "0.26", "1.3", "13", "1260"]);
+        let told = [0.000_042, 0.26, 1.26, 12.6, 1260.4].map(about);
+        assert_eq!(told, ["0.000042", "0.26", "1.3", "13", "1260"]);
+        assert_eq!([3_000_000, 1_260_000_000].map(gigabytes), ["0.0030 GB", "1.3 GB"]);
     }
 }

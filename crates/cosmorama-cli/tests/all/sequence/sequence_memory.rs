@@ -147,7 +147,7 @@ fn estimates_are_no_less_than_what_is_held_and_little_more() {
 fn canvases_cost_what_files_hold_of_them() {
     let bench = Bench::new();
     bench.save("part.png", &picture(1, 16, 16));
-    let from = "equirect:canvas=40000x20000+9000+6000";
+    let from = "equirect:canvas=20000x10000+9000+3000";
     let convert = ["convert", "part.png", "o.png", "--from", from, "--to", "fulldome", "--size", "32"];
     assert_says(&bench.fail(1, &convert), &["does not cover", "look where no view does"]);
     let [_, held] = estimate_and_peak(&bench, &[&convert[..], &["--missing", "black"]].concat());

@@ -131,10 +131,11 @@ fn an_engine_is_told_why_a_job_fails() {
         assert_eq!(of_engine.len(), 1, "{told}");
         assert!(told.contains(&of_engine[0].replace("openjd_fail: ", "error: ")), "{told}");
     }
-    let args = [&["convert", "sky_#.png", "dome_#.png", "--frames", "one"][..], &TO, &["openjd"]].concat();
+    let wrong = "one\nopenjd_status: two";
+    let args = [&["convert", "sky_#.png", "dome_#.png", "--frames", wrong][..], &TO, &["openjd"]].concat();
     let told = text(&bench.run(&args).stderr);
-    assert!(told.contains("\nopenjd_fail: invalid value 'one' for '--frames"), "{told}");
-    assert_eq!(told.matches("openjd_").count(), 1, "{told}");
+    assert!(told.contains("\nopenjd_fail: invalid value 'one   openjd_status: two' for '--frames"), "{told}");
+    assert_eq!(told.lines().filter(|line| line.starts_with("openjd_")).count(), 1, "{told}");
 }
 
 /// A name may hold what a terminal obeys, or what looks like a line for an engine.

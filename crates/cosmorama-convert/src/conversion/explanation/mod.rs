@@ -20,7 +20,7 @@ use super::check::threads;
 use crate::diagnostic::{Code, Diagnostic, FROM, NEAREST, Outcome, Result, TO, TRAVEL, usage, usage_as};
 use crate::input::spec_files::st_map::settled;
 use crate::input::{Builtin, Input, InputView};
-use crate::job::coverage::whole_worlds;
+use crate::job::coverage::{check_pictures, whole_worlds};
 use crate::job::files_read;
 use crate::job::gaps::{Shot, find_gaps};
 use crate::job::options::filter;
@@ -128,7 +128,7 @@ impl ExplanationSettings {
         warnings.extend(input.diagnostics());
         warnings.extend(pictures.first().and_then(|picture| aspect::warning(geometry, &picture.view)));
         input.fit_eyes(pictures.iter().any(|picture| picture.eye.is_some()), warnings);
-        input.worlds.iter_mut().flatten().for_each(InputView::narrow_to_file);
+        check_pictures(&mut input, memory)?;
         let filter = filter(&self.geometry, warnings);
         Ok((input, pictures, movement, filter))
     }
@@ -214,10 +214,10 @@ impl Explanation {
     /// Computes the worlds of whole pictures, even if files are missing: one, or one for each eye.
     ///
     /// # Errors
-    /// When they or the pictures need more memory than permitted, or the views do not make a world.
+    /// When the pictures need more memory than permitted, or the views do not make a world.
     pub fn worlds(&self) -> Result<Vec<World>> {
         self.memory.check_sizes(self.pictures.iter().map(|picture| (picture.view.width(), picture.view.height())))?;
-        self.pool.install(|| whole_worlds(&self.input, self.memory))
+        self.pool.install(|| whole_worlds(&self.input))
     }
 
     /// Explains one of the pictures.

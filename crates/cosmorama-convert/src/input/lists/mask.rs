@@ -3,7 +3,6 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use cosmorama::camera::Canvas;
 use cosmorama::raster::{EncodedImage, Rgba, Transfer};
 use cosmorama::world::{MaskShape, ViewMask};
 use cosmorama_io::{Limits, probe_from, read_from};
@@ -52,11 +51,7 @@ pub(crate) fn of_shapes(
 /// Applies a mask to a view. Hidden parts, and parts that its file lacks of a larger picture, are treated as never
 /// photographed.
 pub(crate) fn hide(view: &mut InputView, mask: Arc<ViewMask>) {
-    let (width, height) = size(view);
-    if let Some((held, canvas)) = &mut view.window {
-        view.nominal = held.clone();
-        *canvas = Canvas { width, height, left: 0, top: 0 };
-    }
+    view.take_for_whole();
     view.mask = Some(mask);
 }
 

@@ -93,7 +93,7 @@ pub(crate) struct FrameNeeds {
     footprints: u64,
     /// Masks of pixels that no view covers.
     masks: u64,
-    /// Copy of the light in which a lens's circle is looked for.
+    /// Copy of the light in which the circle of a lens is looked for, before pictures are made.
     looked_at: u64,
     /// Samples of the pictures.
     encoded: u64,
@@ -241,7 +241,8 @@ impl FrameNeeds {
     fn in_sequence(self) -> FrameMemory {
         let Samples { all, moving, scratch, .. } = self.samples;
         let written = self.pictures.saturating_add(self.encoded);
-        let once = sum([scratch, self.light, self.prepared, self.piece, self.footprints, self.masks]);
+        let filtered = sum([self.prepared, self.piece, self.footprints, self.masks]);
+        let once = sum([scratch, self.light, filtered.max(self.looked_at)]);
         FrameMemory { all: sum([all, once, written]), read: moving, written }
     }
 

@@ -23,7 +23,7 @@ use super::offer::Offer;
 use super::selection::Selection;
 use super::window::Crop;
 use crate::codec::behind::{count_marks, next_bytes, skip_padding};
-use crate::codec::interface::{Density, Source, contained, is_beside_others, whole_image};
+use crate::codec::interface::{Density, Source, contained, is_beside_others, length, whole_image};
 use crate::{Attribute, Carried, Choice, EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata};
 
 const FORMAT: Format = Format::Exr;
@@ -41,35 +41,19 @@ pub(super) const BATCH_BYTES: u128 = 1 << 26;
 
 /// Reads a file's header for the picture that a choice permits, and for the channels beside it.
 pub(crate) fn probe(path: &Path, source: Source<'_>, choice: &Choice) -> Result<Header, IoError> {
-    let attributes = attributes::read(path, &mut *source)?;
-    let reader = open(path, &mut *source)?;
+    let (bytes, attributes) = (length(path, &mut *source)?, attributes::read(path, &mut *source)?);
+    let reader = open(path, source)?;
     let (header, selection, _) = announce(path, reader.headers(), Wanted::Picture(choice))?;
-    let data = DataWindow::of(&reader.headers()[selection.part]);
-    drop(reader);
-    data.check(path, source)?;
+    check_data(path, &reader.headers()[selection.part], bytes)?;
     Ok(with_attributes(header, attributes, selection.part))
 }
 
-/// Size of all data of a part, of which the picture may be a little, and how they are packed.
-struct DataWindow {
-    size: (usize, usize),
-    density: Density,
+/// Refuses a part of more pixels than a file of so many bytes can hold, also where most are cut off from the picture.
+fn check_data(path: &Path, part: &Part, bytes: u64) -> Result<(), IoError> {
+    density(part).check(path, FORMAT, (part.layer_size.width(), part.layer_size.height()), bytes)
 }
 
-impl DataWindow {
-    fn of(part: &Part) -> Self {
-        let size = (part.layer_size.width(), part.layer_size.height());
-        Self { size, density: density(part) }
-    }
-
-    /// Refuses more pixels than the file can hold, also those that are cut off from the picture.
-    fn check(&self, path: &Path, source: Source<'_>) -> Result<(), IoError> {
-        let bytes = source.seek(SeekFrom::End(0)).map_err(|error| IoError::open(path, error))?;
-        self.density.check(path, FORMAT, self.size, bytes)
-    }
-}
-
-/// Returns how many pixels a byte of a file can hold, with all channels of a part.
+/// Returns the density of pixels with all channels of a part.
 fn density(part: &Part) -> Density {
     let unpacked = match part.compression {
         // Squares of 8 × 8 pixels, or runs, packed a second time.
@@ -81,7 +65,7 @@ fn density(part: &Part) -> Density {
     };
     let whole = part.channels.list.iter().filter(|channel| channel.sampling == Vec2(1, 1));
     let bytes: usize = whole.map(|channel| channel.sample_type.bytes_per_sample()).sum();
-    Density { pixel_bits: 8 * bytes as u64, unpacked }
+    Density::of_bits(8 * bytes as u64, unpacked)
 }
 
 /// Adds the attributes of the part that is read.
@@ -94,12 +78,11 @@ fn with_attributes(mut header: Header, mut parts: Vec<Vec<Attribute>>, part: usi
 
 /// Reads a file's header for the two channels of its st map.
 pub(crate) fn probe_pairs(path: &Path, source: Source<'_>) -> Result<Header, IoError> {
+    let bytes = length(path, &mut *source)?;
     attributes::read(path, &mut *source)?;
-    let reader = open(path, &mut *source)?;
+    let reader = open(path, source)?;
     let (header, selection, _) = announce(path, reader.headers(), Wanted::Pair)?;
-    let data = DataWindow::of(&reader.headers()[selection.part]);
-    drop(reader);
-    data.check(path, source)?;
+    check_data(path, &reader.headers()[selection.part], bytes)?;
     Ok(header)
 }
 
@@ -157,11 +140,12 @@ fn read_selected(
     (limits, pool): (&Limits, &FramePool),
     wanted: Wanted<'_>,
 ) -> Result<ImageFile, IoError> {
-    let attributes = attributes::read(path, &mut *source)?;
+    let (bytes, attributes) = (length(path, &mut *source)?, attributes::read(path, &mut *source)?);
     let reader = open(path, &mut *source)?;
     let (header, selection, crop) = announce(path, reader.headers(), wanted)?;
     let header = with_attributes(header, attributes, selection.part);
     check_limits(path, &reader.headers()[selection.part], &header, limits)?;
+    check_data(path, &reader.headers()[selection.part], bytes)?;
     let fail = |error| damaged(path, error);
     // No block may hold pixels outside the data window.
     let count = crop.width * crop.height * selection.channels.count();
@@ -183,19 +167,17 @@ fn read_selected(
 
 /// Reads a file to its end, and drops the pixels of its picture block by block.
 pub(crate) fn check(path: &Path, source: Source<'_>, limits: &Limits, choice: &Choice) -> Result<(), IoError> {
+    let bytes = length(path, &mut *source)?;
     attributes::read(path, &mut *source)?;
     let reader = open(path, &mut *source)?;
     let (header, selection, _) = announce(path, reader.headers(), Wanted::Picture(choice))?;
     let part = &reader.headers()[selection.part];
-    let data = DataWindow::of(part);
     check_block(path, part, &header, limits)?;
-    drop(reader);
-    // All chunks of a file may lie in one place, so that its length alone does not limit what is done.
-    data.check(path, source)?;
-    source.rewind().map_err(|error| IoError::open(path, error))?;
+    // All chunks of a file may lie in one place, so that reading them to its end does not limit what is done.
+    check_data(path, part, bytes)?;
     // Half for blocks, and half for the chunks of which they are made.
     let at_once = u128::from(limits.memory / 2).min(BATCH_BYTES);
-    each_block(open(path, &mut *source)?, selection.part, at_once, |block, part| {
+    each_block(reader, selection.part, at_once, |block, part| {
         // Lines that are not in their block are found as they are for a picture.
         block.lines(&part.channels).for_each(drop);
         Ok(())

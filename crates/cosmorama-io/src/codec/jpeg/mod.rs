@@ -12,15 +12,12 @@ use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
 use self::marks::Beside;
-use crate::codec::interface::{Codec, Density, Sink, Source, held, whole_image};
+use crate::codec::interface::{Codec, Density, Sink, Source, length, whole_image};
 use crate::header::Picture;
 use crate::metadata::{ADOBE_GAMMA, gpano, iptc, orientation};
 use crate::{Carried, Exif, Format, Header, ImageFile, IoError, Limits, MadeRows, Metadata, WriteOptions};
 
 const FORMAT: Format = Format::Jpeg;
-
-/// Most pixels that a byte of a file can hold: squares of 8 × 8, each of at least one bit.
-const DENSITY: Density = Density::pixels(8 * 64);
 
 /// Codec of JPEG, baseline or progressive.
 pub(crate) struct Jpeg;
@@ -35,7 +32,8 @@ impl Codec for Jpeg {
         if beside.has_comment {
             Arc::make_mut(&mut header.metadata.carried).unread.push("a comment (COM)");
         }
-        held(path, source, header, DENSITY)
+        header.check_density(path, Density::JPEG, length(path, source)?)?;
+        Ok(header)
     }
 
     fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
@@ -52,7 +50,7 @@ impl Codec for Jpeg {
             return Err(IoError::several(path, FORMAT, count, "pictures one behind the other"));
         }
         limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
-        DENSITY.check(path, FORMAT, (header.width, header.height), bytes.len() as u64)?;
+        header.check_density(path, Density::JPEG, bytes.len() as u64)?;
         let output = if header.channels == Channels::Grey { ColorSpace::Luma } else { ColorSpace::RGB };
         decoder.set_options(options().jpeg_set_out_colorspace(output));
         let mut samples = pool.take(header.width * header.height * header.channels.count());

@@ -8,7 +8,7 @@ use png::{BitDepth, ColorType, DecodeOptions, Decoder, DecodingError, Info, Read
 use super::carried::{self, Found};
 use super::colour;
 use crate::codec::behind::{next_bytes, skip_padding};
-use crate::codec::interface::{Density, Source, held, whole_image};
+use crate::codec::interface::{Density, Source, length, whole_image};
 use crate::{Format, Header, ImageFile, IoError, Limits};
 
 const FORMAT: Format = Format::Png;
@@ -24,20 +24,22 @@ pub(super) const MARK: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 
 pub(crate) fn probe(path: &Path, source: Source<'_>) -> Result<Header, IoError> {
     let found = carried::read(&mut *source).map_err(|error| IoError::open(path, error))?;
-    let reader = decoder(path, &mut *source)?;
-    let pixel_bits = reader.info().bits_per_pixel() as u64;
+    let bytes = length(path, &mut *source)?;
+    let reader = decoder(path, source)?;
     let header = header(&reader, found);
-    drop(reader);
-    held(path, source, header, Density { pixel_bits, unpacked: Density::DEFLATE })
+    header.check_density(path, density(&reader), bytes)?;
+    Ok(header)
 }
 
 pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
     let found = carried::read(&mut *source).map_err(|error| IoError::open(path, error))?;
+    let bytes = length(path, &mut *source)?;
     let mut reader = decoder(path, &mut *source)?;
     let header = header(&reader, found);
     check_frames(path, &reader)?;
     let size = (header.width as u64, header.height as u64);
     limits.check(path, size, header.channels, header.depth)?;
+    header.check_density(path, density(&reader), bytes)?;
     let count = header.width * header.height * header.channels.count();
     let samples = match header.depth {
         Depth::Eight => {
@@ -66,6 +68,11 @@ pub(crate) fn check(path: &Path, source: Source<'_>) -> Result<(), IoError> {
     reader.finish().map_err(|error| damaged(path, &error))?;
     drop(reader);
     check_behind(path, source)
+}
+
+/// Returns the density of pixels as they are stored.
+fn density(reader: &Reader<Source<'_>>) -> Density {
+    Density::of_bits(reader.info().bits_per_pixel() as u64, Density::DEFLATE)
 }
 
 /// Refuses an animation.
@@ -161,6 +168,11 @@ fn damaged(path: &Path, error: &DecodingError) -> IoError {
         DecodingError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
             IoError::damaged(path, FORMAT, "it ends too early")
         }
+        DecodingError::LimitsExceeded => IoError::damaged(
+            path,
+            FORMAT,
+            format_args!("a chunk beside its pixels takes more than {DECODER_BYTES} bytes"),
+        ),
         error => IoError::damaged(path, FORMAT, error),
     }
 }

@@ -5,7 +5,7 @@ use cosmorama::raster::{Channels, Depth, EncodedImage, FramePool, Primaries, Sam
 
 use super::rgbe::{self, Rgbe};
 use crate::codec::behind::{next_bytes, skip_padding};
-use crate::codec::interface::{Codec, Density, Sink, Source, held, whole_image};
+use crate::codec::interface::{Codec, Density, Sink, Source, length, whole_image};
 use crate::header::Picture;
 use crate::{Choice, Format, Header, ImageFile, IoError, Limits, MadeRows, Metadata, WriteOptions};
 
@@ -25,20 +25,27 @@ const LONGEST_LINE: u64 = 4096;
 /// Greatest number of header lines.
 const MOST_LINES: usize = 1024;
 
+/// Returns the density of pixels: a run may fill a row, which has at least one pixel of four bytes.
+fn density(header: &Header) -> Density {
+    Density::pixels(header.width.div_ceil(4) as u64)
+}
+
 /// Codec of Radiance RGBE.
 pub(crate) struct Hdr;
 
 impl Codec for Hdr {
     fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
-        let Preamble { header, .. } = Preamble::read(path, &mut *source)?;
-        // A run may fill a row, which has at least one pixel of four bytes.
-        let density = Density::pixels(header.width.div_ceil(4) as u64);
-        held(path, source, header, density)
+        let bytes = length(path, &mut *source)?;
+        let Preamble { header, .. } = Preamble::read(path, source)?;
+        header.check_density(path, density(&header), bytes)?;
+        Ok(header)
     }
 
     fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
+        let bytes = length(path, &mut *source)?;
         let Preamble { header, exposure, upside_down } = Preamble::read(path, &mut *source)?;
         limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
+        header.check_density(path, density(&header), bytes)?;
         let mut samples = pool.take::<f32>(header.width * header.height * 3);
         each_line(path, source, &header, |j, line| {
             let row = if upside_down { header.height - 1 - j } else { j };

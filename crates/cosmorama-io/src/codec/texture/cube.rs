@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::packing::Packed;
 use super::texel::Texels;
-use crate::codec::interface::{Codec, Density, Sink, Source, is_beside_others, whole_image};
+use crate::codec::interface::{Codec, Density, Sink, Source, is_beside_others, length, whole_image};
 use crate::{EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata, WriteOptions};
 
 /// Supported textures, for messages.
@@ -161,11 +161,11 @@ impl CubeTexture {
 
     /// Refuses faces of more pixels than the file can hold.
     fn check_capacity(&self, path: &Path, format: Format, source: Source<'_>) -> Result<(), IoError> {
-        let length = source.seek(SeekFrom::End(0)).map_err(|error| IoError::open(path, error))?;
-        let unpacked = self.packed.map_or(1, |packed| packed.packing.most_of_one());
+        let length = length(path, source)?;
+        let unpacked = self.packed.map_or(1, |packed| packed.packing.unpacked());
         let bytes = self.packed.map_or(length, |packed| packed.length.min(length));
         let edge = self.edge as usize;
-        let density = Density { pixel_bits: self.texels.bits(), unpacked };
+        let density = Density::of_bits(self.texels.bits(), unpacked);
         density.check(path, format, (edge, edge.saturating_mul(6)), bytes)
     }
 

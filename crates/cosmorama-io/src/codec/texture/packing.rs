@@ -15,7 +15,7 @@ pub(super) enum Packing {
 
 impl Packing {
     /// Returns the most bytes that a packed byte becomes.
-    pub(super) fn most_of_one(self) -> u64 {
+    pub(super) fn unpacked(self) -> u64 {
         match self {
             // Blocks of 128 KiB, each of at least a header of three bytes and a byte (RFC 8878, section 3.1.1.2).
             Self::Zstandard => (128 << 10) / 4,

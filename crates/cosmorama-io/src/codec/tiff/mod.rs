@@ -2,7 +2,7 @@
 
 mod carried;
 mod extent;
-mod jpeg_strips;
+mod jpeg_parts;
 mod reader;
 mod writer;
 

@@ -7,7 +7,7 @@ use tiff::decoder::{Decoder, DecodingResult, DecodingSampleType};
 use tiff::tags::{CompressionMethod, SampleFormat, Tag};
 use tiff::{ColorType, TiffError};
 
-use super::{carried, extent, jpeg_strips};
+use super::{carried, extent, jpeg_parts};
 use crate::codec::interface::{Density, Source, whole_image};
 use crate::{Format, Header, ImageFile, IoError, Limits, Metadata};
 
@@ -39,10 +39,6 @@ fn opened<'a>(path: &Path, source: Source<'a>) -> Result<Decoder<Source<'a>>, Io
 /// Refuses a header that declares more pixels than its strips or tiles can hold. Several may lie in the same place.
 fn check_capacity(path: &Path, decoder: &mut Decoder<Source<'_>>, header: &Header) -> Result<(), IoError> {
     let density = density(path, decoder)?;
-    if decoder.find_tag_unsigned::<u16>(Tag::Compression).ok().flatten() == Some(CompressionMethod::ModernJPEG.to_u16())
-    {
-        jpeg_strips::check(path, decoder, header.height as u32)?;
-    }
     let lengths = [Tag::StripByteCounts, Tag::TileByteCounts]
         .into_iter()
         .find_map(|tag| decoder.find_tag_unsigned_vec::<u64>(tag).ok().flatten());
@@ -64,12 +60,11 @@ fn density(path: &Path, decoder: &mut Decoder<Source<'_>>) -> Result<Density, Io
         CompressionMethod::Deflate | CompressionMethod::OldDeflate => Density::DEFLATE,
         // Strings of 4096 in twelve bits.
         CompressionMethod::LZW => 2731,
-        // Squares of 8 × 8, each of at least one bit.
-        CompressionMethod::ModernJPEG => return Ok(Density::pixels(8 * 64)),
+        CompressionMethod::ModernJPEG => return Ok(Density::JPEG),
         other => return Err(IoError::unsupported(path, FORMAT, compression(other), COMPRESSIONS)),
     };
     let colour = decoder.colortype().map_err(fail)?;
-    Ok(Density { pixel_bits: u64::from(colour.bit_depth()) * u64::from(colour.num_samples()), unpacked })
+    Ok(Density::of_bits(u64::from(colour.bit_depth()) * u64::from(colour.num_samples()), unpacked))
 }
 
 /// Returns the name of a compression that is not read.
@@ -112,6 +107,7 @@ pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits, pool: &Fram
     let mut header = header(path, &mut decoder)?;
     limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
     check_capacity(path, &mut decoder, &header)?;
+    jpeg_parts::check(path, &mut decoder)?;
     let mode = alpha_mode(&mut decoder);
     let mut decoder = decoder.with_limits(within(limits));
     let result = decode(&mut decoder, &header, pool).map_err(|error| damaged(path, &error))?;
@@ -131,6 +127,7 @@ pub(crate) fn check(path: &Path, source: Source<'_>, limits: &Limits) -> Result<
     let mut decoder = opened(path, &mut *source)?;
     let header = header(path, &mut decoder)?;
     check_capacity(path, &mut decoder, &header)?;
+    jpeg_parts::check(path, &mut decoder)?;
     let mode = alpha_mode(&mut decoder);
     let mut decoder = decoder.with_limits(within(limits));
     // What is too large to be computed is refused as in a reading.

@@ -2,7 +2,9 @@
 
 use super::{crc32, exr_of, giant_tiff, put_box, written};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
-use cosmorama_io::{Format, IoError, Limits, WriteOptions, probe, probe_from, read_from, write};
+use cosmorama_io::{
+    Compression, Format, IoError, Limits, WriteOptions, probe, probe_from, read, read_from, write, write_to,
+};
 use std::io::Cursor;
 
 /// Writes a size into a PNG's header.
@@ -47,12 +49,13 @@ fn what_a_file_is_too_short_for_is_refused_by_its_header() {
         std::fs::write(&path, &bytes).unwrap();
         let error = probe(&path).unwrap_err();
         let message = error.to_string();
+        assert_eq!(message, read(&path, &Limits::NONE).map(|_| ()).unwrap_err().to_string());
         assert!(matches!(error, IoError::Damaged { .. }), "{message}");
         assert!(message.contains(&format!("its {} bytes cannot hold {size} pixels", bytes.len())), "{message}");
     }
 }
 
-/// The most that compression does of one colour is held.
+/// The most that compressions of ours make of one colour is held.
 #[test]
 fn pictures_of_one_colour_are_not_called_too_short() {
     let folder = tempfile::tempdir().unwrap();
@@ -67,8 +70,10 @@ fn pictures_of_one_colour_are_not_called_too_short() {
             _ => Samples::Float(vec![0.0; count]),
         };
         let image = EncodedImage::new(2000, 1000, Channels::Rgb, depth, samples).unwrap();
-        write(&path, &image, &WriteOptions::default()).unwrap();
-        assert_eq!(probe(&path).unwrap().width, 2000, "{extension}");
+        for compression in [Compression::None, Compression::Fast, Compression::Balanced, Compression::High] {
+            write(&path, &image, &WriteOptions { compression, ..WriteOptions::default() }).unwrap();
+            assert_eq!(probe(&path).unwrap().width, 2000, "{extension}, {compression:?}");
+        }
     }
 }
 
@@ -116,36 +121,49 @@ fn compressions_that_are_not_read_are_told_by_the_header() {
     }
 }
 
+/// A little-endian TIFF of grey, in JPEG: these bytes are its one strip or tile of so many columns and rows, and these the tables.
+fn jpeg_tiff(size: [u32; 2], tile: Option<[u32; 2]>, jpeg: &[u8], tables: &[u8]) -> Vec<u8> {
+    let (at, count) = (8, jpeg.len() as u32);
+    let [width, height] = size;
+    let mut entries = vec![(256, width), (257, height), (258, 8), (259, 7), (262, 1), (277, 1)];
+    match tile {
+        None => entries.extend([(273, at), (278, height), (279, count)]),
+        Some([width, height]) => entries.extend([(322, width), (323, height), (324, at), (325, count)]),
+    }
+    entries.sort_unstable();
+    let mut tiff = [&b"II\x2a\0"[..], &(8 + count + tables.len() as u32).to_le_bytes(), jpeg, tables].concat();
+    tiff.extend((entries.len() as u16 + u16::from(!tables.is_empty())).to_le_bytes());
+    let mut entry = |tag: u16, kind: u16, count: u32, value: u32| {
+        tiff.extend([&tag.to_le_bytes()[..], &kind.to_le_bytes(), &count.to_le_bytes(), &value.to_le_bytes()].concat());
+    };
+    let (before, behind): (Vec<_>, Vec<_>) = entries.into_iter().partition(|(tag, _)| *tag < 347);
+    before.into_iter().for_each(|(tag, value)| entry(tag, 4, 1, value));
+    if !tables.is_empty() {
+        entry(347, 7, tables.len() as u32, 8 + count);
+    }
+    behind.into_iter().for_each(|(tag, value)| entry(tag, 4, 1, value));
+    tiff.extend([0; 4]);
+    tiff
+}
+
 /// A strip in JPEG names a size of its own, for which the decoder would take memory.
 #[test]
-fn strips_in_jpeg_are_no_larger_than_the_file_says() {
-    let tiff = |width: u16, height: u16| {
-        let [[a, b], [c, d]] = [height, width].map(u16::to_be_bytes);
-        let frame = [0xff, 0xd8, 0xff, 0xdb, 0, 4, 0, 0, 0xff, 0xc0, 0, 11, 8, a, b, c, d, 1, 1, 0x11, 0];
-        let entries: [(u16, u32); 9] = [
-            (256, 64),
-            (257, 32),
-            (258, 8),
-            (259, 7),
-            (262, 1),
-            (273, 8),
-            (277, 1),
-            (278, 32),
-            (279, frame.len() as u32),
-        ];
-        let place = 8 + frame.len() as u32;
-        let mut tiff = [&b"II\x2a\0"[..], &place.to_le_bytes(), &frame, b"\x09\0"].concat();
-        for (tag, value) in entries {
-            tiff.extend([&tag.to_le_bytes()[..], &[4, 0, 1, 0, 0, 0], &value.to_le_bytes()].concat());
-        }
-        tiff.extend([0; 4]);
-        tiff
-    };
-    for (width, height) in [(16_384, 16_384), (65, 32), (64, 33)] {
-        let message = refused("strip.tif", &tiff(width, height));
-        assert!(message.contains(&format!("64x32 pixels in JPEG says that it has {width}x{height}")), "{message}");
+fn strips_in_jpeg_hold_what_they_declare() {
+    // Fill bytes before a mark, and tables, are no way around.
+    let frame = |start: &[u8]| [start, &[0xff, 0xff, 0xc0, 0, 11, 8, 0x40, 0, 0x40, 0, 1, 1, 0x11, 0]].concat();
+    let scan = [0xff, 0xda, 0, 8, 1, 1, 0, 0, 63, 0, 0, 0];
+    let alone = [frame(&[0xff, 0xd8]), scan.to_vec()].concat();
+    let (behind, tables) = ([&[0xff, 0xd8][..], &scan].concat(), [frame(&[0xff, 0xd8]), vec![0xff, 0xd9]].concat());
+    for tiff in [jpeg_tiff([64, 32], None, &alone, &[]), jpeg_tiff([64, 32], None, &behind, &tables)] {
+        let message = read_from(Cursor::new(tiff), "a.tif", &Limits::NONE).map(|_| ()).unwrap_err().to_string();
+        assert!(message.contains("bytes cannot hold 16384x16384 pixels"), "{message}");
     }
-    assert!(probe_from(Cursor::new(tiff(64, 32)), "strip.tif").is_ok());
+    // Tiles are filled up beyond the picture.
+    let grey = EncodedImage::new(64, 64, Channels::Grey, Depth::Eight, Samples::U8(vec![90; 64 * 64])).unwrap();
+    let mut jpeg = Cursor::new(Vec::new());
+    write_to(&mut jpeg, "a.jpg", Format::Jpeg, &grey, &WriteOptions::default()).unwrap();
+    let tiled = jpeg_tiff([60, 20], Some([64, 64]), jpeg.get_ref(), &[]);
+    assert_eq!(read_from(Cursor::new(tiled), "a.tif", &Limits::NONE).unwrap().image.height(), 20);
 }
 
 /// A colour profile of 80 MB in some kilobytes.
