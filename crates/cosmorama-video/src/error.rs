@@ -199,6 +199,16 @@ pub enum VideoError {
         /// Expected property.
         expected: String,
     },
+    /// A word among ffmpeg's further arguments cannot stand there.
+    #[error(
+        "ffmpeg's further argument {word}: {reason}; expected options with their values, as in -crf 20 -preset slow"
+    )]
+    UnfitArgument {
+        /// The word.
+        word: String,
+        /// Why it is refused.
+        reason: String,
+    },
     /// ffmpeg failed while it encoded; nothing was left behind.
     #[error("cannot write {}: ffmpeg failed: {reason}", path.display())]
     Encode {

@@ -96,8 +96,13 @@ impl Console {
     pub(crate) fn error(&self, text: &str) {
         let text = self.told(text);
         self.log.error(&text);
+        self.fail_for_engine(&text);
+    }
+
+    /// Tells an engine, if there is one, that the work has failed. Others read it in what was printed.
+    pub(crate) fn fail_for_engine(&self, text: &str) {
         if self.is_for_engine.load(Ordering::Relaxed) {
-            say_failure(&text);
+            say_failure(text);
         }
     }
 

@@ -16,6 +16,11 @@ use crate::failure::usage;
 
 /// Verifies a sequence, and reports its faults.
 pub(super) fn run(args: &VerifyArgs, console: &Console) -> Result<ExitCode> {
+    if &*args.pattern == "-" {
+        return Err(usage(
+            "a stream is not verified as it comes; write it to a file first, as frames.y4m, and verify that",
+        ));
+    }
     let format = args.sheet.as_deref().map(Format::from_extension).transpose();
     let format = format.map_err(|error| usage(error.to_string()))?;
     let _folders = args.sheet.as_deref().map(|sheet| prepare_sheet(sheet, args, console)).transpose()?;
@@ -35,7 +40,11 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Result<ExitCode> {
     if let (Some(path), Some(format), Some(sheet)) = (&args.sheet, format, &verified.sheet) {
         write_picture((path, format), sheet, console)?;
     }
-    Ok(if verified.faults.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+    if verified.faults.is_empty() {
+        return Ok(ExitCode::SUCCESS);
+    }
+    console.fail_for_engine(&format!("frames with faults: {}", verified.faulty()));
+    Ok(ExitCode::FAILURE)
 }
 
 /// Refuses to replace a frame, or a file unasked, and makes the sheet's folder. If it cannot be written there, that is told before

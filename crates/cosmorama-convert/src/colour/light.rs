@@ -182,6 +182,11 @@ impl Light {
         }
     }
 
+    /// Returns whether outputs say nothing of what they were made of.
+    pub(crate) fn is_stripped(&self) -> bool {
+        self.carries.is_none()
+    }
+
     /// Returns the bytes of an output's samples.
     pub(crate) fn file_bytes(&self, (width, height): (usize, usize)) -> u64 {
         let samples = (self.channels.count() * self.depth.bytes()) as u64;

@@ -312,11 +312,13 @@ impl ConvertJob {
         let has_frames = self.input.frames.iter().any(Option::is_some);
         // Of a stream, only its end would tell from what its frames were made.
         let is_live = self.input.is_live(&*self.files);
-        let has_place = has_frames && !settings.strip && !self.target.format.is_video() && !is_live;
+        let has_place = has_frames && !self.target.format.is_video() && !is_live;
         self.origin = has_place.then(|| Origin::of(self, settings));
         let mut outputs = std::mem::take(&mut self.outputs);
         let left = outputs.leave_finished(settings.existing, self);
         self.outputs = outputs;
+        // Files that are there may tell how they were made, but new ones will not.
+        self.origin = self.origin.take().filter(|_| !settings.strip);
         left
     }
 

@@ -1,10 +1,12 @@
 use std::path::{Path, PathBuf};
 
-use cosmorama_io::{Choice, Format, IoError, Limits, Metadata, check_chosen, open, probe_chosen};
+use cosmorama_io::{Choice, Format, FrameList, IoError, Limits, Metadata, check_chosen, open, probe_chosen};
 use rayon::prelude::*;
 
 use crate::colour::{LayerPlan, Light};
-use crate::diagnostic::{Code, ConvertError, Diagnostic, MEMORY, OVERWRITE, RESUME, Result, failed_as, failure};
+use crate::diagnostic::{
+    Code, ConvertError, Diagnostic, FRAMES, MEMORY, OVERWRITE, RESUME, Result, failed_as, failure,
+};
 use crate::job::origin::{are_of_one_version, differences};
 use crate::job::{ConvertJob, FrameOutputs};
 use crate::source::video::FrameName;
@@ -27,6 +29,17 @@ pub(crate) struct Resumed {
     pub(crate) remade: Vec<Remade>,
     /// Number of outputs that are kept although they do not say how they were made.
     pub(crate) untold: usize,
+    /// Outputs that were made otherwise.
+    otherwise: Vec<Otherwise>,
+}
+
+/// A whole picture by other settings, or from other inputs.
+#[derive(Debug)]
+struct Otherwise {
+    frame: Option<u64>,
+    path: PathBuf,
+    /// Parts in which these differ.
+    parts: Vec<String>,
 }
 
 /// Content in the place of an output.
@@ -72,12 +85,13 @@ impl Resumed {
             // All of them, so that the first in order is told of, whichever thread is the fastest.
             let found: Vec<Result<Self>> = some.par_iter_mut().map(of).collect();
             for of_frame in found {
-                let Self { remade, untold } = of_frame?;
+                let Self { remade, untold, otherwise } = of_frame?;
                 all.remade.extend(remade);
                 all.untold += untold;
+                all.otherwise.extend(otherwise);
             }
         }
-        Ok(all)
+        otherwise(&all.otherwise).map_or(Ok(all), Err)
     }
 
     fn of(frame: &mut FrameOutputs, job: &ConvertJob) -> Result<Self> {
@@ -109,7 +123,7 @@ impl Resumed {
                     found.remade.push(Remade { output: path.clone(), reason });
                     left.push((index, path));
                 }
-                Found::Otherwise(parts) => return Err(otherwise(&path, &parts)),
+                Found::Otherwise(parts) => found.otherwise.push(Otherwise { frame: frame.frame, path, parts }),
                 Found::TooLarge(error) => {
                     let advice = format!(
                         "to see whether it is whole for {RESUME}, raise {MEMORY}; or make all again with {OVERWRITE}"
@@ -177,6 +191,8 @@ impl Found {
             instead(&header.channels, &light.channels, ToString::to_string).filter(|_| !choice.without_picture),
             instead(&header.depth, &light.depth, |depth| format!("depth {depth}")).filter(|_| !choice.without_picture),
             (!layers.are_in(&header)).then(|| "other channels beside the picture's".to_owned()),
+            (light.is_stripped() && header.metadata.origin.is_some())
+                .then(|| "with words about how it was made".to_owned()),
         ]
         .into_iter()
         .flatten()
@@ -229,8 +245,9 @@ fn newer_input(job: &ConvertJob, frame: Option<u64>, output: &Path) -> Option<Pa
     })
 }
 
-/// Returns the error about an output that was made by other settings.
-fn otherwise(path: &Path, parts: &[String]) -> ConvertError {
+/// Returns the error about outputs that were made by other settings, or from other inputs, if there are any.
+fn otherwise(all: &[Otherwise]) -> Option<ConvertError> {
+    let Otherwise { path, parts, .. } = all.first()?;
     let told = parts.iter().map(|part| match part.as_str() {
         "geometry" => "geometry (projections, size or orientation)",
         "pose" => "poses (orientation, path, turn or shutter)",
@@ -239,13 +256,21 @@ fn otherwise(path: &Path, parts: &[String]) -> ConvertError {
         _ => "inputs",
     });
     let told = told.collect::<Vec<_>>().join("; other ");
-    failed_as(
+    let frames = FrameList::new(all.iter().filter_map(|one| one.frame)).to_string();
+    let (others, again) = if all.len() == 1 {
+        (String::new(), format!("make it again with {FRAMES} {frames} {OVERWRITE}"))
+    } else {
+        let more = all.len() - 1;
+        let others = format!(", and {more} more {} made otherwise", if more == 1 { "was" } else { "were" });
+        (others, format!("make these again with {FRAMES} {frames} {OVERWRITE}"))
+    };
+    Some(failed_as(
         Code::Remade,
         format!(
-            "{RESUME}: {} was made with other {told}; give what made it, name other outputs, or make all again with {OVERWRITE}",
+            "{RESUME}: {} was made with other {told}{others}; give what made it, name other outputs, or {again}",
             path.display()
         ),
-    )
+    ))
 }
 
 /// Describes a finding that differs from the expectation.

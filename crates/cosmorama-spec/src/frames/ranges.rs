@@ -3,6 +3,8 @@ use std::str::FromStr;
 
 use thiserror::Error;
 
+use super::TimeRanges;
+
 /// Frame numbers as typed, in the requested order: `1-3,5,7-20:2`.
 ///
 /// ```
@@ -53,6 +55,9 @@ impl FromStr for FrameRanges {
 
     fn from_str(text: &str) -> Result<Self, FrameRangesError> {
         let fail = |reason: String| FrameRangesError { list: text.to_owned(), reason };
+        if TimeRanges::are_meant(text) {
+            return Err(fail("these are times, but frames are chosen by their numbers here".to_owned()));
+        }
         let (mut ranges, mut count) = (Vec::new(), 0);
         for part in text.split(',').map(str::trim) {
             let range = Range::parse(part).map_err(fail)?;

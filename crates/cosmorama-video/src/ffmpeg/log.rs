@@ -62,23 +62,32 @@ impl Log {
 
     /// Reads the rest, and returns the last words of ffmpeg that name a cause.
     pub(crate) fn last_words(&mut self) -> String {
+        self.cause().unwrap_or_else(|| "it says nothing".to_owned())
+    }
+
+    /// Reads the rest, and returns the cause of what it complained of; `None` if it did not.
+    pub(crate) fn cause(&mut self) -> Option<String> {
         while self.next().is_some() {}
         let cause = self.complaints.iter().find(|text| !CONSEQUENCES.iter().any(|words| text.contains(words)));
-        let text = cause.or(self.complaints.front());
-        text.map_or_else(|| "it says nothing".to_owned(), Clone::clone)
+        cause.or(self.complaints.front()).cloned()
     }
 
     /// Reads the rest, and returns the cause that it tells, if it tells one.
     pub(crate) fn rest(&mut self) -> Option<String> {
         self.complaints.clear();
-        while self.next().is_some() {}
-        (!self.complaints.is_empty()).then(|| self.last_words())
+        self.cause()
     }
 }
 
 /// Messages that follow from others.
-const CONSEQUENCES: [&str; 4] =
-    ["Conversion failed", "Error marking filters as finished", "Error closing", "Terminating demuxer"];
+const CONSEQUENCES: [&str; 6] = [
+    "Conversion failed",
+    "Error marking filters as finished",
+    "Error closing",
+    "Terminating demuxer",
+    "Error initializing output stream",
+    "Error while opening encoder",
+];
 
 /// Marks of messages of errors.
 const LEVELS: [&str; 3] = ["[error] ", "[fatal] ", "[panic] "];

@@ -1,5 +1,6 @@
 //! Videos made of frames, whole or not at all.
 
+mod arguments;
 mod carried;
 mod codec;
 mod command;
@@ -39,7 +40,7 @@ pub struct WriteSettings {
     pub spatial: Option<SpatialTags>,
     /// Codec; `None` for the usual one of the container.
     pub codec: Option<Codec>,
-    /// Further arguments of ffmpeg, put before the output's name.
+    /// Further arguments of ffmpeg, put before the output's name: options with their values.
     pub arguments: Vec<String>,
     /// Video whose sound, subtitles, chapters, time code and metadata are copied.
     pub source: Option<Carried>,

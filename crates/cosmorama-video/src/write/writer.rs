@@ -5,6 +5,7 @@ use std::process::ChildStdin;
 use cosmorama::raster::EncodedImage;
 use cosmorama_io::pending::{Pending, Unfinished};
 
+use super::arguments;
 use super::carried::Plan;
 use super::codec::Encoder;
 use super::command::Parts;
@@ -46,9 +47,10 @@ impl VideoWriter {
     /// Checks that a video can be made with these settings, before there is any frame of it.
     ///
     /// # Errors
-    /// When the extension, the size or the settings fit no codec, or the encoder is missing in this build of ffmpeg. The folder is not
+    /// When the extension, the size, the settings or further arguments fit no codec, or the encoder is missing in this build of ffmpeg. The folder is not
     /// looked at.
     pub fn check(ffmpeg: &Ffmpeg, path: &Path, settings: &WriteSettings) -> Result<(), VideoError> {
+        arguments::check(&settings.arguments)?;
         let (container, codec, encoder) = chosen(ffmpeg, path, settings)?;
         let plan = &Plan::default();
         let parts = Parts { settings, container, codec, encoder: &encoder, plan, output: path };
@@ -58,7 +60,7 @@ impl VideoWriter {
     /// Starts to encode, under a temporary name in the output's folder.
     ///
     /// # Errors
-    /// When the extension or the settings fit no codec, the encoder is missing in this build of ffmpeg, or nothing can be
+    /// When the extension, the settings or further arguments fit no codec, the encoder is missing in this build of ffmpeg, or nothing can be
     /// written there.
     pub fn create(
         ffmpeg: &Ffmpeg,
@@ -66,6 +68,7 @@ impl VideoWriter {
         settings: WriteSettings,
         unfinished: &Unfinished,
     ) -> Result<Self, VideoError> {
+        arguments::check(&settings.arguments)?;
         let ffmpeg = &ffmpeg.clone().ending_with(unfinished);
         let (container, codec, encoder) = chosen(ffmpeg, path, &settings)?;
         let plan = Plan::of(&settings, container);
@@ -153,8 +156,7 @@ impl VideoWriter {
         let status = self.child.wait().map_err(failed)?;
         let complaint = self.log.rest();
         if !status.success() || complaint.as_deref().is_some_and(is_fatal) {
-            let reason = complaint.unwrap_or_else(|| "it says nothing".to_owned());
-            return Err(self.failed_by(reason));
+            return Err(self.failed_by(complaint));
         }
         self.plan.notes.extend(complaint.map(|text| format!("ffmpeg says: {text}")));
         self.add_boxes()?;
@@ -235,12 +237,14 @@ impl VideoWriter {
         if error.kind() != io::ErrorKind::BrokenPipe {
             return failed(error);
         }
-        let words = self.log.last_words();
+        let words = self.log.cause();
         self.failed_by(words)
     }
 
     /// Returns the error with ffmpeg's words, and with the user's own arguments, which may be what it complains of.
-    fn failed_by(&self, words: String) -> VideoError {
+    fn failed_by(&mut self, words: Option<String>) -> VideoError {
+        let mut ended = || self.child.wait().map_or_else(|error| error.to_string(), |status| status.to_string());
+        let words = words.unwrap_or_else(|| format!("it says nothing, and ended with {}", ended()));
         let own = self.settings.arguments.join(" ");
         let reason = if own.is_empty() { words } else { format!("{words}; its further arguments were {own}") };
         VideoError::Encode { path: self.path.clone(), reason }

@@ -14,6 +14,9 @@ pub struct Magnification {
 }
 
 impl Magnification {
+    /// Texels per pixel above which they are any number, as at a map's pole, whose last row is one point.
+    pub const MANY: f64 = 1e6;
+
     /// Computes the singular values of a footprint's matrix.
     pub(crate) fn of(jacobian: DMat2) -> Self {
         let [greatest, least] = semi_axes(jacobian);

@@ -79,9 +79,7 @@ impl Display for ViewReport {
 
 impl Display for Magnification {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        /// Texels per pixel above which the text says "any number", as at a map's pole, whose last row is one point.
-        const MANY: f64 = 1e6;
-        if self.greatest > MANY {
+        if self.greatest > Self::MANY {
             return write!(f, "{:.2} to any number of texels a pixel", self.least);
         }
         write!(f, "{:.2} to {:.2} texels a pixel", self.least, self.greatest)

@@ -216,13 +216,17 @@ fn to_json(report: &Report, explanation: &Explanation, files: &[PathBuf]) -> Val
 fn centre_json(centre: &Centre, report: &Report) -> Value {
     let (yaw, pitch) = centre.direction.longitude_latitude();
     let view = centre.view.map(|(index, _)| report.views[index].need.name.as_str());
-    let texels = centre.view.map(|(_, found)| [found.least, found.greatest]);
+    let texels = centre.view.map(|(_, found)| range_json(found));
     json!({ "yaw": yaw.degrees(), "pitch": pitch.degrees(), "view": view, "texels_a_pixel": texels })
+}
+
+/// Returns the least and the greatest number of texels a pixel; null where these are any number.
+fn range_json(found: Magnification) -> Value {
+    json!([found.least, Some(found.greatest).filter(|greatest| *greatest <= Magnification::MANY)])
 }
 
 fn view_json(view: &ViewReport) -> Value {
     let rect = |rect: PixelRect| rect.to_string();
-    let range = |found: Magnification| json!([found.least, found.greatest]);
     json!({
         "name": view.need.name,
         "width": view.size.0,
@@ -231,7 +235,7 @@ fn view_json(view: &ViewReport) -> Value {
         "read": view.need.read.map(rect),
         "texels_used": view.used,
         "share_of_picture": view.share,
-        "texels_a_pixel": view.magnification.map(range),
+        "texels_a_pixel": view.magnification.map(range_json),
         "advised_size": view.advised.map(|advised| [advised.parity.0, advised.parity.1]),
     })
 }

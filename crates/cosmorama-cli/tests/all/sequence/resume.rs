@@ -180,7 +180,7 @@ fn frames_of_a_turn_over_other_frames_are_no_part_of_it() {
     kept(&bench, &args("1-4", "360..450"));
     // The first frame is the same; the second has moved less.
     let told = bench.fail(1, &[&args("1-8", "0..90")[..], &["--resume"]].concat());
-    assert_says(&told, &["out_2.png was made with other poses"]);
+    assert_says(&told, &["out_2.png was made with other poses", "and 2 more were made otherwise", "--frames 2-4 "]);
     // The same degrees a frame, over more of them, go on.
     let longer = [&args("1-7", "0..180")[..], &["--resume", "--json"]].concat();
     let report: Value = serde_json::from_str(&bench.succeed(&longer)).unwrap();
@@ -249,6 +249,13 @@ fn stripped_frames_say_nothing_of_how_they_were_made() {
         &told,
         &["warning: --resume: 1 output is kept by size, samples and date alone", "--overwrite"],
     );
+    // One that says how it was made is compared, and made again without these words.
+    let telling: Vec<&str> = sequence.iter().copied().filter(|word| *word != "--strip").collect();
+    bench.succeed(&[&telling[..], &["-y"]].concat());
+    let told = bench.fail(1, &[&sequence[..], &["--yaw", "20", "--resume"]].concat());
+    crate::bench::assert_says(&told, &["out_1.png was made with other geometry"]);
+    bench.succeed(&[&sequence[..], &["--resume"]].concat());
+    assert_eq!(cosmorama_io::probe(&path).unwrap().metadata.origin, None);
 }
 
 /// A format that has no room for words: what is older than its input is made again.

@@ -75,6 +75,9 @@ fn frames_are_chosen_exactly() {
     for frame in [7, 9, 11, 13, 15, 17, 19, 3, 39] {
         assert_same(&bench, "all", "some", frame..frame + 1);
     }
+    // The first that is asked for is the last of the film that is decoded.
+    convert(&bench, ["film.mkv", "back/####.png"], &["--frames", "9,7,8"]);
+    assert_same(&bench, "all", "back", 7..10);
     // At 25 frames a second these are 10 to 14.
     convert(&bench, ["film.mkv", "timed/####.png"], &["--frames", "00:00:00.4-00:00:00.6"]);
     let made = bench.files().into_iter().filter(|path| path.starts_with(bench.path("timed"))).count();
@@ -88,7 +91,7 @@ fn frames_are_chosen_exactly() {
     );
     assert_says(
         &refused(&bench, 1, ["film.mkv", "none/####.png"], &["--frames", "00:01:00-00:02:00"]),
-        &["film.mkv", "no frame then", "40"],
+        &["film.mkv", "ends before that", "40 frames", "until 00:00:01.6"],
     );
     assert_says(
         &refused(&bench, 2, ["all/####.png", "none/####.png"], &["--frames", "00:00:00"]),

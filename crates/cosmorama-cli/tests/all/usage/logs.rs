@@ -131,6 +131,8 @@ fn an_engine_is_told_why_a_job_fails() {
         assert_eq!(of_engine.len(), 1, "{told}");
         assert!(told.contains(&of_engine[0].replace("openjd_fail: ", "error: ")), "{told}");
     }
+    let told = text(&bench.run(&["verify", "sky_#.png", "--progress", "openjd"]).stderr);
+    assert!(told.ends_with("openjd_fail: frames with faults: 2\n"), "{told}");
     let wrong = "one\nopenjd_status: two";
     let args = [&["convert", "sky_#.png", "dome_#.png", "--frames", wrong][..], &TO, &["openjd"]].concat();
     let told = text(&bench.run(&args).stderr);

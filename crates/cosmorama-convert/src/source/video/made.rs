@@ -297,6 +297,7 @@ fn unfit(error: VideoError) -> ConvertError {
         VideoError::UnknownContainer { .. } | VideoError::CannotHold { .. } => {
             usage_as(Code::OutputFormat, error.to_string())
         }
+        VideoError::UnfitArgument { .. } => usage(error.to_string()),
         _ => foreign(error).into(),
     }
 }

@@ -350,7 +350,7 @@ impl Source {
     ) -> Result<Option<EncodedImage>, VideoError> {
         if state.reader.as_ref().is_none_or(|(_, next)| *next > number) {
             state.close();
-            state.reader = Some(self.reader(state.start(number), state, limits)?);
+            state.reader = Some(self.reader((state.start(number), number), state, limits)?);
         }
         loop {
             let Some((reader, next)) = &mut state.reader else { return Err(self.without(number)) };
@@ -376,10 +376,10 @@ impl Source {
         }
     }
 
-    /// Starts a decoder that comes to a frame, and returns it with the number of its first frame. Of a whole file it goes on to the
+    /// Starts a decoder that comes from a frame to another, and returns it with the number of its first frame. Of a whole file it goes on to the
     /// file's end, where it tells whether there are more frames than are announced. Of a file that is cut it takes the frames that are
     /// wanted, so that the first that is missing is named.
-    fn reader(&self, first: u64, state: &State, limits: &Limits) -> Result<(Decoder, u64), VideoError> {
+    fn reader(&self, (first, asked): (u64, u64), state: &State, limits: &Limits) -> Result<(Decoder, u64), VideoError> {
         let (ffmpeg, info, half) = match &self.content {
             Content::Film { ffmpeg, info, half } => (ffmpeg, info, half),
             Content::Raw { kind, files, .. } => {
@@ -387,9 +387,9 @@ impl Source {
                 let reader = RawReader::open(*kind, bytes, &self.name.display().to_string(), limits.memory)?;
                 return Ok((Decoder::Raw(reader), 0));
             }
-            Content::Live { .. } => return Err(self.without(first)),
+            Content::Live { .. } => return Err(self.without(asked)),
         };
-        let last = state.wanted.last().copied().unwrap_or(0).max(first);
+        let last = state.wanted.last().copied().unwrap_or(0).max(asked);
         let last = if state.is_expected { last } else { last.max(self.count.saturating_sub(1)) };
         let is_all = first == 0 && info.cut.is_none();
         let frames = (!is_all).then_some(first..=last);
