@@ -48,16 +48,22 @@ fn numbers(what: &str, words: &[Word]) -> Result<Vec<f64>, String> {
     super::numbers(what, words.iter().map(|word| (word.text.as_str(), word.line)))
 }
 
-/// Least focal length in pixels.
-const LEAST: f64 = 1e-6;
+/// Least focal length in pixels: lenses have many, and a matrix in other units has less.
+const LEAST: f64 = 1.0;
+
+/// Greatest skew, in focal lengths. That of sensors is far below one.
+const MOST_SKEW: f64 = 10.0;
 
 /// Returns the first two rows of the matrix; the last must be 0, 0, 1.
 fn matrix(name: &str, numbers: &[f64]) -> Result<[[f64; 3]; 2], String> {
     let [a, b, c, d, e, f, 0.0, 0.0, 1.0] = numbers[..] else {
         return Err(format!("{name} is {}; expected fx, skew, cx, 0, fy, cy, 0, 0, 1", brief(numbers)));
     };
-    if d != 0.0 || a < LEAST || e < LEAST {
-        return Err(format!("{name} begins {a}, {b}, {c}, {d}, {e}, {f}; expected fx > 0, skew, cx, 0, fy > 0, cy"));
+    if d != 0.0 || a < LEAST || e < LEAST || b.abs() > MOST_SKEW * a {
+        return Err(format!(
+            "{name} begins {a}, {b}, {c}, {d}, {e}, {f}; expected fx, skew, cx, 0, fy, cy in pixels, with fx and fy from {LEAST} on and a \
+             skew up to {MOST_SKEW} fx"
+        ));
     }
     Ok([[a, b, c], [d, e, f]])
 }

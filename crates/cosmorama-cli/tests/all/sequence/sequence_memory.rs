@@ -148,10 +148,10 @@ fn canvases_cost_what_files_hold_of_them() {
     let bench = Bench::new();
     bench.save("part.png", &picture(1, 16, 16));
     let from = "equirect:canvas=20000x10000+9000+3000";
-    let convert = ["convert", "part.png", "o.png", "--from", from, "--to", "fulldome", "--size", "32"];
+    let convert = ["convert", "part.png", "o.png", "--from", from, "--to", "fulldome", "--size", "64"];
     assert_says(&bench.fail(1, &convert), &["does not cover", "look where no view does"]);
     let [_, held] = estimate_and_peak(&bench, &[&convert[..], &["--missing", "black"]].concat());
     assert!(held < 64.0, "{held} MiB");
-    let told = bench.succeed(&["explain", "part.png", "--from", from, "--to", "fulldome", "--size", "32"]);
+    let told = bench.succeed(&["explain", "part.png", "--from", from, "--to", "fulldome", "--size", "64"]);
     assert!(told.contains("part.png  16x16"), "{told}");
 }

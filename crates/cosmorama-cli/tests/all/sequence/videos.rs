@@ -69,15 +69,12 @@ fn frames_are_chosen_exactly() {
     let bench = Bench::new();
     film(&bench, "film.mkv", 40);
     convert(&bench, ["film.mkv", "all/####.png"], &[]);
-    convert(&bench, ["film.mkv", "some/####.png"], &["--frames", "7-20:2,3,39"]);
+    convert(&bench, ["film.mkv", "some/####.png"], &["--frames", "39,7-20:2,3"]);
     let made = bench.files().into_iter().filter(|path| path.starts_with(bench.path("some"))).count();
     assert_eq!(made, 9);
     for frame in [7, 9, 11, 13, 15, 17, 19, 3, 39] {
         assert_same(&bench, "all", "some", frame..frame + 1);
     }
-    // The first that is asked for is the last of the film that is decoded.
-    convert(&bench, ["film.mkv", "back/####.png"], &["--frames", "9,7,8"]);
-    assert_same(&bench, "all", "back", 7..10);
     // At 25 frames a second these are 10 to 14.
     convert(&bench, ["film.mkv", "timed/####.png"], &["--frames", "00:00:00.4-00:00:00.6"]);
     let made = bench.files().into_iter().filter(|path| path.starts_with(bench.path("timed"))).count();

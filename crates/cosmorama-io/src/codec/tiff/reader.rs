@@ -36,20 +36,15 @@ fn opened<'a>(path: &Path, source: Source<'a>) -> Result<Decoder<Source<'a>>, Io
     Decoder::new(source).map_err(|error| damaged(path, &error))
 }
 
-/// Refuses a header that declares more pixels than its strips or tiles can hold. Several may lie in the same place.
+/// Refuses a header that declares more pixels than the file can hold, and compressions that are not read. Strips that lie in the same
+/// place count once.
 fn check_capacity(path: &Path, decoder: &mut Decoder<Source<'_>>, header: &Header) -> Result<(), IoError> {
     let density = density(path, decoder)?;
-    let lengths = [Tag::StripByteCounts, Tag::TileByteCounts]
-        .into_iter()
-        .find_map(|tag| decoder.find_tag_unsigned_vec::<u64>(tag).ok().flatten());
-    let Some(lengths) = lengths else { return Ok(()) };
-    let whole = decoder.inner().seek(SeekFrom::End(0)).map_err(|error| IoError::open(path, error))?;
-    let length = lengths.into_iter().map(|length| length.min(whole)).fold(0, u64::saturating_add);
-    // Some programs count the bytes wrongly.
-    density.check(path, FORMAT, (header.width, header.height), length.max(whole))
+    let bytes = decoder.inner().seek(SeekFrom::End(0)).map_err(|error| IoError::open(path, error))?;
+    header.check_density(path, density, bytes)
 }
 
-/// Returns how many pixels a byte of a strip can hold. Refuses compressions that are not read.
+/// Returns the density of pixels in strips. Refuses compressions that are not read.
 fn density(path: &Path, decoder: &mut Decoder<Source<'_>>) -> Result<Density, IoError> {
     let fail = |error: TiffError| damaged(path, &error);
     let method = decoder.find_tag_unsigned::<u16>(Tag::Compression).map_err(fail)?;

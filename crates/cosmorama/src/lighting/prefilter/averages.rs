@@ -28,15 +28,45 @@ pub trait LobeAverages: Sync {
     /// Makes a picture in which each pixel is the average about its direction. `unseen` is the light of directions in which the
     /// world shows nothing. Pixels outside the target's field of view are transparent.
     fn picture(&self, target: &View, lobe: &Lobe, unseen: Rgba) -> Image<Rgba> {
-        let (width, height) = (target.width(), target.height());
-        let seen = |[i, j]: [usize; 2]| Some((j * width + i, target.screen_pixel(i, j)?));
-        let seen: Vec<_> = by_tiles(width, height).into_par_iter().filter_map(seen).collect();
-        let axes: Vec<Direction> = seen.iter().map(|(_, pixel)| pixel.footprint.direction).collect();
-        let mut image = Image::filled(width, height, Rgba::TRANSPARENT);
-        for ((k, pixel), average) in seen.iter().zip(self.averages(&axes, lobe)) {
-            image.pixels_mut()[*k] = average.over(unseen) * pixel.coverage as f32;
+        let mut image = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
+        let (mut pixels, mut seen) = (by_tiles(target.width(), target.height()), Vec::new());
+        loop {
+            let some: Vec<[usize; 2]> = pixels.by_ref().take(AT_ONCE).collect();
+            let is_end = some.is_empty();
+            seen.par_extend(some.into_par_iter().filter_map(|pixel| SeenPixel::of(target, pixel)));
+            // Pixels that share their work stay together, whatever is held at once.
+            let count = if is_end { seen.len() } else { seen.len() - seen.len() % TOGETHER };
+            let axes: Vec<Direction> = seen[..count].iter().map(|pixel| pixel.axis).collect();
+            for (pixel, average) in seen.drain(..count).zip(self.averages(&axes, lobe)) {
+                image.pixels_mut()[pixel.index] = average.over(unseen) * pixel.coverage;
+            }
+            if is_end {
+                return image;
+            }
         }
-        image
+    }
+}
+
+/// Pixels of a picture whose averages are made at once: enough for all threads.
+const AT_ONCE: usize = 1 << 16;
+
+/// Multiple of the numbers of axes that share work.
+const TOGETHER: usize = 1 << 12;
+
+/// A pixel that shows something.
+struct SeenPixel {
+    /// Place in the image, row by row.
+    index: usize,
+    axis: Direction,
+    /// Part of the pixel inside the field of view.
+    coverage: f32,
+}
+
+impl SeenPixel {
+    fn of(target: &View, [i, j]: [usize; 2]) -> Option<Self> {
+        let screen = target.screen_pixel(i, j)?;
+        let index = j * target.width() + i;
+        Some(Self { index, axis: screen.footprint.direction, coverage: screen.coverage as f32 })
     }
 }
 
@@ -44,16 +74,13 @@ pub trait LobeAverages: Sync {
 const TILE: [usize; 2] = [4, 2];
 
 /// Returns the columns and rows of an image's pixels, tile by tile.
-fn by_tiles(width: usize, height: usize) -> Vec<[usize; 2]> {
+fn by_tiles(width: usize, height: usize) -> impl Iterator<Item = [usize; 2]> {
     let [across, down] = TILE;
-    let mut pixels = Vec::with_capacity(width * height);
-    for top in (0..height).step_by(down) {
-        for left in (0..width).step_by(across) {
-            let rows = top..(top + down).min(height);
-            pixels.extend(rows.flat_map(|j| (left..(left + across).min(width)).map(move |i| [i, j])));
-        }
-    }
-    pixels
+    let tiles = (0..height).step_by(down).flat_map(move |top| (0..width).step_by(across).map(move |left| (left, top)));
+    tiles.flat_map(move |(left, top)| {
+        let rows = top..(top + down).min(height);
+        rows.flat_map(move |j| (left..(left + across).min(width)).map(move |i| [i, j]))
+    })
 }
 
 /// Rule by which sums become averages.
