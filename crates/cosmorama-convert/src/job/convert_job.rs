@@ -346,6 +346,7 @@ impl ConvertJob {
         };
         let Self { input, filter, memory, .. } = self;
         check_pictures(input, *memory)?;
+        input.narrow_to_files();
         let whole = whole_worlds(input)?;
         if self.lighting.is_some() {
             (self.coverage, self.worlds) = Coverage::of_sphere(input, whole, self.missing)?;

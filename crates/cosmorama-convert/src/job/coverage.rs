@@ -21,12 +21,10 @@ pub(crate) enum Coverage {
     Continue(Beyond),
 }
 
-/// Refuses whole pictures that are too large. Of others, those of which files hold little are narrowed to what they hold.
-pub(crate) fn check_pictures(input: &mut Input, memory: MemoryBudget) -> Result<()> {
+/// Refuses whole pictures that are too large.
+pub(crate) fn check_pictures(input: &Input, memory: MemoryBudget) -> Result<()> {
     memory.check_pictures(input)?;
-    input.views().try_for_each(check_sides)?;
-    input.narrow_to_files();
-    Ok(())
+    input.views().try_for_each(check_sides)
 }
 
 /// Returns the worlds of whole pictures, even if files are missing: one, or one for each eye.

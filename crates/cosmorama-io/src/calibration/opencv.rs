@@ -61,7 +61,7 @@ fn matrix(name: &str, numbers: &[f64]) -> Result<[[f64; 3]; 2], String> {
     };
     if d != 0.0 || a < LEAST || e < LEAST || b.abs() > MOST_SKEW * a {
         return Err(format!(
-            "{name} begins {a}, {b}, {c}, {d}, {e}, {f}; expected fx, skew, cx, 0, fy, cy in pixels, with fx and fy from {LEAST} on and a \
+            "{name} begins {a}, {b}, {c}, {d}, {e}, {f}; expected fx >= {LEAST}, skew, cx, 0, fy >= {LEAST}, cy in pixels, and a \
              skew up to {MOST_SKEW} fx"
         ));
     }

@@ -128,7 +128,7 @@ impl ExplanationSettings {
         warnings.extend(input.diagnostics());
         warnings.extend(pictures.first().and_then(|picture| aspect::warning(geometry, &picture.view)));
         input.fit_eyes(pictures.iter().any(|picture| picture.eye.is_some()), warnings);
-        check_pictures(&mut input, memory)?;
+        input.narrow_to_files();
         let filter = filter(&self.geometry, warnings);
         Ok((input, pictures, movement, filter))
     }
@@ -214,9 +214,10 @@ impl Explanation {
     /// Computes the worlds of whole pictures, even if files are missing: one, or one for each eye.
     ///
     /// # Errors
-    /// When the pictures need more memory than permitted, or the views do not make a world.
+    /// When they or the pictures need more memory than permitted, or the views do not make a world.
     pub fn worlds(&self) -> Result<Vec<World>> {
         self.memory.check_sizes(self.pictures.iter().map(|picture| (picture.view.width(), picture.view.height())))?;
+        check_pictures(&self.input, self.memory)?;
         self.pool.install(|| whole_worlds(&self.input))
     }
 
