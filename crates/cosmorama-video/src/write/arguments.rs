@@ -3,7 +3,7 @@
 use crate::VideoError;
 
 /// Options of ffmpeg that take no value, also with `no` before them. All others take one.
-const WITHOUT_VALUE: [&str; 31] = [
+const WITHOUT_VALUE: [&str; 34] = [
     "accurate_seek",
     "an",
     "autorotate",
@@ -33,7 +33,10 @@ const WITHOUT_VALUE: [&str; 31] = [
     "sn",
     "start_at_zero",
     "stats",
+    "stdin",
     "vn",
+    "vstats",
+    "xerror",
     "y",
 ];
 
@@ -83,6 +86,7 @@ mod tests {
             ("-crf 20 other.mp4", "other.mp4"),
             ("-an notes.mkv", "notes.mkv"),
             ("-noautorotate a.mkv", "a.mkv"),
+            ("-xerror a.mkv", "a.mkv"),
             ("-y - -crf 3", "-"),
             ("-- a", "--"),
             ("-i in.mp4", "-i"),

@@ -47,8 +47,8 @@ impl VideoWriter {
     /// Checks that a video can be made with these settings, before there is any frame of it.
     ///
     /// # Errors
-    /// When the extension, the size, the settings or further arguments fit no codec, or the encoder is missing in this build of ffmpeg. The folder is not
-    /// looked at.
+    /// When the extension, the size, the settings or further arguments fit no codec, or the encoder is missing in this build of ffmpeg.
+    /// The folder is not looked at.
     pub fn check(ffmpeg: &Ffmpeg, path: &Path, settings: &WriteSettings) -> Result<(), VideoError> {
         arguments::check(&settings.arguments)?;
         let (container, codec, encoder) = chosen(ffmpeg, path, settings)?;
@@ -60,8 +60,8 @@ impl VideoWriter {
     /// Starts to encode, under a temporary name in the output's folder.
     ///
     /// # Errors
-    /// When the extension, the settings or further arguments fit no codec, the encoder is missing in this build of ffmpeg, or nothing can be
-    /// written there.
+    /// When the extension, the settings or further arguments fit no codec, the encoder is missing in this build of ffmpeg, or nothing
+    /// can be written there.
     pub fn create(
         ffmpeg: &Ffmpeg,
         path: &Path,

@@ -376,9 +376,9 @@ impl Source {
         }
     }
 
-    /// Starts a decoder that comes from a frame to another, and returns it with the number of its first frame. Of a whole file it goes on to the
-    /// file's end, where it tells whether there are more frames than are announced. Of a file that is cut it takes the frames that are
-    /// wanted, so that the first that is missing is named.
+    /// Starts a decoder that goes from a frame to the one that is asked for, and returns it with the number of its first frame. Of a whole
+    /// file it goes on to the file's end, where it tells whether there are more frames than are announced. Of a file that is cut it takes
+    /// the frames that are wanted, so that the first that is missing is named.
     fn reader(&self, (first, asked): (u64, u64), state: &State, limits: &Limits) -> Result<(Decoder, u64), VideoError> {
         let (ffmpeg, info, half) = match &self.content {
             Content::Film { ffmpeg, info, half } => (ffmpeg, info, half),
