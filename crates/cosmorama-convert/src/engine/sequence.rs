@@ -254,6 +254,8 @@ impl<'a> Sequence<'a> {
         let Self { job, engine, stages, .. } = *self;
         let origin = job.origin_of(frame.frame)?.map(Arc::<str>::from);
         light.check_unchanged(job).at(|| named(frame))?;
+        let encode = |levels| self.pool.install(|| engine.writer().encoded(levels));
+        let pictures: Vec<Levels> = stages.among(Stage::Encode, || pictures.into_iter().map(encode).collect());
         let words = FrameWords { place: turn.place - 1, carried: light.carried(), origin };
         let write = |((_, path), levels): (&(usize, PathBuf), Levels)| {
             let (path, words) = (path.clone(), words.clone());

@@ -3,7 +3,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
 
-use cosmorama::raster::{Depth, EncodedImage, Encoder, Image, Rgba, Threads};
+use cosmorama::raster::{Depth, EncodedImage, Encoder, FramePool, Image, Rgba, Threads};
 use cosmorama_io::pending::Hidden;
 use cosmorama_io::{
     Carried, LayeredImage, LayeredRows, MadeLayers, MadeRows, Plane, Remark, WriteOptions, write_hidden,
@@ -20,6 +20,8 @@ pub(crate) enum Levels {
     Light(Vec<Image<Rgba>>),
     /// Code values of 8 bits.
     Codes(Vec<Image<[u8; 3]>>),
+    /// Samples of a file.
+    Encoded(Vec<EncodedImage>),
     /// File that is written, but for its name.
     Written(Hidden),
     /// Light, if the picture is written, with further channels.
@@ -86,6 +88,11 @@ impl Writer {
         Self { conversion, encoder, names, options, videos, said, is_half, overflowed }
     }
 
+    /// Takes the memory of samples from a pool.
+    pub(crate) fn take_memory_of(&mut self, pool: Arc<FramePool>) {
+        self.options.pool = pool;
+    }
+
     /// Returns the encoder, if all that becomes of light is encoding.
     pub(crate) fn encoder_alone(&self) -> Option<&Encoder> {
         self.conversion.is_none().then_some(&self.encoder)
@@ -121,6 +128,16 @@ impl Writer {
         let encoded = self.encoder.encode_in(&image, threads, &self.options.pool);
         self.options.pool.give_image(image);
         encoded
+    }
+
+    /// Encodes the light of a picture that is alone in its file, so that frames which wait to be written hold none.
+    pub(crate) fn encoded(&self, levels: Levels) -> Levels {
+        match levels {
+            Levels::Light(images) => {
+                Levels::Encoded(images.into_iter().map(|image| self.encode(image, Threads::All)).collect())
+            }
+            other => other,
+        }
     }
 
     /// Writes a picture of that size but for its name, while its rows are made, as many at once.
@@ -184,6 +201,7 @@ impl Writer {
         let encoded: Vec<EncodedImage> = match levels {
             Levels::Light(images) => images.into_iter().map(encode).collect(),
             Levels::Codes(images) => images.into_iter().map(EncodedImage::of_codes).collect(),
+            Levels::Encoded(images) => images,
             Levels::Written(file) => return Ok(Some(file)),
             Levels::Layered { size, picture, planes } => {
                 let picture = picture.map(encode);

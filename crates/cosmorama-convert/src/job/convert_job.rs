@@ -383,7 +383,7 @@ impl ConvertJob {
         let has_narrow = PreparedLight::has_narrow(&lobes);
         let sources = sources.filter(|_| has_narrow);
         let blocks: u64 = sources.map(|source| gathered_bytes(&source.view)).fold(0, u64::saturating_add);
-        let bands = PreparedLight::bytes_for(&lobes) as u64 * self.worlds.len() as u64;
+        let bands = self.worlds.iter().map(|world| PreparedLight::bytes_for(world, &lobes) as u64).sum::<u64>();
         // The map before, the one after, and all between; another where the error is measured.
         let copies = lighting.every.map_or(0, |every| every.frames.min(self.input.frames.len()) + 2);
         let pictures = self.frame_needs().pictures();

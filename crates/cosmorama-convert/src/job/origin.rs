@@ -62,9 +62,8 @@ impl Origin {
         let lights: Vec<_> = all().map(|job| (job.light.definition(), job.opacity, job.missing)).collect();
         let asked = (in_primaries, ignore_profile, ocio, part, channels, layers);
         let colour = digest(&(lights, asked, (quality, mips, remarks)));
-        let version = env!("CARGO_PKG_VERSION");
         Self {
-            shared: format!("{version}, geometry {geometry:08x}, filter {filter:08x}, colour {colour:08x}"),
+            shared: format!("{VERSION}, geometry {geometry:08x}, filter {filter:08x}, colour {colour:08x}"),
             named: named.collect(),
             still: OnceLock::new(),
         }
@@ -97,7 +96,7 @@ impl Origin {
         let named: Vec<_> = self.named.iter().map(|path| still.known(path).flatten()).collect();
         let read = (job.layers().map(read_by).collect::<Vec<_>>(), named);
         let (pose, input) = (digest(&poses), digest(&(formulas, read)));
-        Ok(Some(format!("{}{POSE}{pose:08x}, input {input:08x}", self.shared)))
+        Ok(Some(checked(format!("{}{POSE}{pose:08x}, input {input:08x}", self.shared))))
     }
 }
 
@@ -127,8 +126,35 @@ impl Samples {
     }
 }
 
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
 /// Beginning of the part of an origin that is each frame's own.
 const POSE: &str = ", pose ";
+
+/// Beginning of the digest of the words before it. Of most formats, texts have no checksum: a flipped bit would look like other
+/// settings.
+const CHECK: &str = ", check ";
+
+/// Finding about a file whose origin [`is_damaged`].
+pub(crate) const DAMAGED_ORIGIN: &str = "its words about how it was made are not as they were written";
+
+/// Returns an origin with a digest of its words.
+fn checked(words: String) -> String {
+    let check = words_digest(&words);
+    words + CHECK + &check
+}
+
+/// Returns whether a digest at the end of an origin is not that of its words, or is lacking where this version would write it.
+pub(crate) fn is_damaged(origin: &str) -> bool {
+    match origin.rsplit_once(CHECK) {
+        Some((words, check)) => check != words_digest(words),
+        None => are_of_one_version(origin, VERSION),
+    }
+}
+
+fn words_digest(words: &str) -> String {
+    format!("{:08x}", xxh3_64(words.as_bytes()) as u32)
+}
 
 /// Returns the part of an origin that frames of one run share.
 pub(crate) fn settings_of(origin: &str) -> Option<&str> {
@@ -147,7 +173,8 @@ pub(crate) fn differences(found: &str, expected: &str) -> Vec<String> {
     }
     let (found, expected): (Vec<&str>, Vec<&str>) = (found.split(", ").collect(), expected.split(", ").collect());
     let differ = expected.iter().filter(|part| !found.contains(part));
-    differ.filter_map(|part| Some(part.split_once(' ')?.0.to_owned())).collect()
+    let names = differ.filter_map(|part| Some(part.split_once(' ')?.0));
+    names.filter(|name| *name != "check").map(str::to_owned).collect()
 }
 
 /// Returns the names of the parts in which two origins differ, and the first one's settings: fuzzing compares them without a conversion.
@@ -206,6 +233,22 @@ mod tests {
         assert_eq!(differences("0.1.0", one), ["geometry", "filter", "colour", "pose", "input"]);
         assert_eq!(differences(&other.replace("0.1.0", "0.2.0"), one), Vec::<String>::new());
         assert_eq!((settings_of(one), settings_of("")), (Some("0.1.0, geometry 1, filter 2, colour 3"), None));
+    }
+
+    #[test]
+    fn a_changed_letter_of_an_origin_is_damage() {
+        let whole = checked(format!("{VERSION}, geometry 1, filter 2, colour 3, pose 5, input 4"));
+        assert!(!is_damaged(&whole));
+        assert_eq!(differences(&whole, &checked(whole.replace("input 4", "input 6"))), ["input"]);
+        for at in 0..whole.len() {
+            let mut damaged = whole.clone().into_bytes();
+            damaged[at] ^= 1;
+            assert!(is_damaged(&String::from_utf8(damaged).unwrap()), "{at}");
+            let is_before_the_words = at < VERSION.len();
+            assert!(is_before_the_words || is_damaged(&whole[..at]), "{at}");
+        }
+        // Those of versions before had no such digest.
+        assert!(!is_damaged("0.1.0, geometry 1, filter 2"));
     }
 
     #[test]

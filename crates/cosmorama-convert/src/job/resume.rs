@@ -7,8 +7,8 @@ use crate::colour::{LayerPlan, Light};
 use crate::diagnostic::{
     Code, ConvertError, Diagnostic, FRAMES, MEMORY, OVERWRITE, RESUME, Result, failed_as, failure,
 };
-use crate::job::origin::{are_of_one_version, differences};
-use crate::job::{ConvertJob, FrameOutputs};
+use crate::job::origin::{are_of_one_version, differences, is_damaged};
+use crate::job::{ConvertJob, DAMAGED_ORIGIN, FrameOutputs};
 use crate::source::video::FrameName;
 use crate::source::{MemoryBudget, Stamp};
 use crate::target::TargetFile;
@@ -180,6 +180,9 @@ impl Found {
             Ok(header) => header,
             Err(error) => return Self::unreadable(error),
         };
+        if header.metadata.origin.as_deref().is_some_and(is_damaged) {
+            return Self::Other(format!("damaged {}: {DAMAGED_ORIGIN}", header.format));
+        }
         if let Some(parts) = Self::made_otherwise(&header.metadata, expected) {
             return Self::Otherwise(parts);
         }

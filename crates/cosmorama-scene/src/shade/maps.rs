@@ -84,7 +84,7 @@ impl LightMaps {
             diffuse: is_matt.then(|| LightMap::panorama(&prepared, unseen)),
             exact: exact.iter().map(map).collect(),
             chain: chain.iter().map(map).collect(),
-            to_make: PreparedLight::bytes_for(&all),
+            to_make: PreparedLight::bytes_for(world, &all),
             ..empty
         })
     }

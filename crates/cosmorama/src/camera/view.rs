@@ -36,6 +36,11 @@ impl View {
         matches!(self.projection, ProjectionKind::Perspective(_))
     }
 
+    /// Returns whether the pixels of two views are the same except for the views' orientation.
+    pub fn is_alike(&self, other: &Self) -> bool {
+        self.projection == other.projection && self.grid == other.grid && self.stop == other.stop
+    }
+
     /// Returns the matrix from (x, y, 1) of a pinhole camera's image to a vector along what is seen there, in the world's
     /// frame. Its component along the view's axis is one. `None` for other views.
     pub(crate) fn rays(&self) -> Option<DMat3> {

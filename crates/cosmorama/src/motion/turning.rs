@@ -32,9 +32,7 @@ impl Turning {
     pub(super) fn of(views: &[(View, f32)], texel: f64, tolerance: Tolerance) -> Option<Self> {
         let middle = views.len() / 2;
         let (lens, ends) = (&views[middle].0, [&views[0].0, &views[views.len() - 1].0]);
-        let is_alike =
-            |view: &View| (&view.projection, &view.grid, &view.stop) == (&lens.projection, &lens.grid, &lens.stop);
-        if !views.iter().all(|(view, _)| is_alike(view)) {
+        if !views.iter().all(|(view, _)| view.is_alike(lens)) {
             return None;
         }
         let back = lens.orientation.rotation().inverse();

@@ -50,6 +50,12 @@ impl Presence {
         let pixel = source.view.wrapped(source.view.pixel(direction)?);
         source.shows(pixel).then(|| Self::at(index, source, pixel))
     }
+
+    /// Returns whether the view's texels are as small as the smallest, given by their solid angle, of all views.
+    fn is_as_fine(&self, least: f64) -> bool {
+        const ROUNDING: f64 = 1.000_001;
+        self.solid_angle <= least * ROUNDING
+    }
 }
 
 /// Returns the share of each view that shows a direction; the shares add to one.
@@ -65,7 +71,8 @@ pub(crate) fn parts(present: &[Presence]) -> Vec<f64> {
     for priority in priorities {
         let group = || present.iter().enumerate().filter(move |(_, one)| one.blend.priority == priority);
         let fades = group().any(|(_, one)| one.blend.feather.radians() > 0.0);
-        let weigh = |one: &Presence| if fades { one.weight } else { finest(one, group().map(|(_, other)| other)) };
+        let least = group().map(|(_, one)| one.solid_angle).fold(f64::INFINITY, f64::min);
+        let weigh = |one: &Presence| if fades { one.weight } else { f64::from(u8::from(one.is_as_fine(least))) };
         let sum: f64 = group().map(|(_, one)| weigh(one)).sum();
         if sum > 0.0 {
             let covered = sum.min(1.0);
@@ -81,13 +88,6 @@ pub(crate) fn parts(present: &[Presence]) -> Vec<f64> {
         parts.fill((present.len() as f64).recip());
     }
     parts
-}
-
-/// Returns one for the view with the smallest texels, and for views with equally small ones; else zero.
-fn finest<'a>(one: &Presence, all: impl Iterator<Item = &'a Presence>) -> f64 {
-    const AS_FINE: f64 = 1.000_001;
-    let least = all.map(|other| other.solid_angle).fold(f64::INFINITY, f64::min);
-    f64::from(u8::from(one.solid_angle <= least * AS_FINE))
 }
 
 /// Returns a smooth step from 0 to 1 without a kink at either end. For two views that overlap by their feather the

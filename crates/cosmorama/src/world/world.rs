@@ -242,7 +242,7 @@ impl World {
         let mut known = self.sources;
         // What was hidden or shared in this world may not be in the other.
         known.retain(|source| source.mask.is_none() && source.others.is_empty());
-        known.retain(|source| views.iter().any(|other| is_alike(&source.view, &other.view)));
+        known.retain(|source| views.iter().any(|other| source.view.is_alike(&other.view)));
         Self::made(views, known)
     }
 
@@ -253,7 +253,7 @@ impl World {
         for WorldView { name, view, blend, mask } in views {
             let (period, whole) = (view.period(), owned(&view));
             // The faces of a cube have one grid: what was computed for the first serves all.
-            let twin = sources.iter().chain(&known).find(|other| is_alike(&other.view, &view));
+            let twin = sources.iter().chain(&known).find(|other| other.view.is_alike(&view));
             let texel_pitch = twin.map_or_else(|| texel_pitch(&view), |twin| twin.texel_pitch);
             let solid_angles = twin.map(|twin| twin.solid_angles.clone());
             let solid_angles = solid_angles.unwrap_or_else(|| SolidAngles::of(&view, whole.right));
@@ -419,11 +419,6 @@ impl Pitches {
             steep: steep.collect(),
         }
     }
-}
-
-/// Returns whether the texels of two views are the same except for the views' orientation.
-fn is_alike(a: &View, b: &View) -> bool {
-    a.projection == b.projection && a.grid == b.grid && a.stop == b.stop
 }
 
 /// Checks that views make a world, before memory is allocated for it.

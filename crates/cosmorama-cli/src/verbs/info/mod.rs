@@ -1,6 +1,7 @@
 //! Report of `info` on a file, a face set or a world.
 
 mod carried;
+mod coverage;
 mod faces;
 mod layers;
 mod video;

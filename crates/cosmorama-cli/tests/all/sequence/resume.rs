@@ -115,6 +115,17 @@ fn frames_by_other_settings_or_of_other_inputs_are_no_part_of_it() {
         bench.save("sky_2.png", &picture(2, 64, 32));
         std::fs::copy(bench.path(&format!("out_3.{end}")), bench.path(&format!("out_1.{end}"))).unwrap();
         assert_says(&bench.fail(1, &resume), &[&format!("out_1.{end} was made with other inputs")]);
+        std::fs::remove_file(bench.path(&format!("out_1.{end}"))).unwrap();
+        bench.succeed(&resume);
+        // A digit of a digest is damage, not other settings.
+        let path = bench.path(&format!("out_2.{end}"));
+        let mut file = std::fs::read(&path).unwrap();
+        let digit = file.windows(9).position(|word| word == b"geometry ").unwrap() + 9;
+        file[digit] = if file[digit] == b'0' { b'1' } else { b'0' };
+        std::fs::write(&path, file).unwrap();
+        assert_says(&bench.fail(1, &["verify", &out, "--frames", "1-3"]), &["damaged", &format!("out_2.{end}")]);
+        let report: Value = serde_json::from_str(&bench.succeed(&[&resume[..], &["--json"]].concat())).unwrap();
+        assert_eq!((&report["frames"], &report["skipped"]), (&1.into(), &2.into()), "{end}: {report}");
     }
 }
 

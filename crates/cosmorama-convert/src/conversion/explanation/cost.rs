@@ -9,7 +9,7 @@ use cosmorama_io::Format;
 
 use super::Explanation;
 use crate::input::{Input, InputView};
-use crate::job::{FrameNeeds, Held, are_too_large, compressed, footprint_bytes, program_bytes};
+use crate::job::{FrameNeeds, Held, are_too_large, compressed, footprint_bytes, program_bytes, with_reserve};
 use crate::source::memory_budget::{area, read_bytes};
 use crate::target::Picture;
 
@@ -113,9 +113,9 @@ impl Explanation {
         };
         let plans: u64 = reports.iter().map(|report| plan(report) as u64).sum();
         let threads = self.pool.current_num_threads();
-        let depth = self.memory.queue_depth(needs, self.pictures().len(), plans, threads);
+        let depth = self.memory.queue_depth(needs, (usize::MAX, self.pictures().len()), plans, threads);
         let of_job = [needs.shared, plans, depth.bytes].into_iter().fold(0, u64::saturating_add);
-        let with_program = |bytes: u64| program_bytes(threads, needs.made()).saturating_add(bytes);
+        let with_program = |bytes: u64| program_bytes(threads, needs.made()).saturating_add(with_reserve(bytes));
         let raw = pixels.saturating_mul(files.pixel_bytes());
         SequenceCost {
             files,

@@ -11,7 +11,7 @@ use xxhash_rust::xxh3::xxh3_64;
 use super::sheet;
 use crate::colour::InputTransfer;
 use crate::diagnostic::Result;
-use crate::job::settings_of;
+use crate::job::{DAMAGED_ORIGIN, is_damaged, settings_of};
 use crate::source::{Files, read};
 
 /// Summary of a frame that was read.
@@ -61,6 +61,9 @@ impl Frame {
     /// When there is a file, but it may not be read, or needs more memory than permitted.
     pub(super) fn read(files: &dyn Files, (number, path): (u64, &Path), limits: &Limits, shows: bool) -> Result<Self> {
         let found = match read(files, path, limits) {
+            Ok(file) if file.metadata.origin.as_deref().is_some_and(is_damaged) => {
+                Found::Damage(DAMAGED_ORIGIN.to_owned())
+            }
             Ok(file) => {
                 let transfer = InputTransfer::new(&TransferName::Auto, None).of(file.image.depth(), &file.metadata);
                 let settings = file.metadata.origin.as_deref().and_then(settings_of).map(str::to_owned);

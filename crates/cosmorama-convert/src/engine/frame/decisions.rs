@@ -38,11 +38,11 @@ impl Engine<'_> {
         if !job.outputs.are_many() {
             return job.estimated_bytes(threads).saturating_add(with_reserve(geometry));
         }
-        let needs = job.frame_needs();
+        let needs = self.needs;
         let own = [needs.shared, self.queue_depth().bytes, geometry];
         let behind = job.layers().skip(1).map(|job| job.frame_needs().peak());
         let pictures = own.into_iter().chain(behind).fold(0, u64::saturating_add);
-        program_bytes(threads, needs.made()).saturating_add(pictures)
+        program_bytes(threads, needs.made()).saturating_add(with_reserve(pictures))
     }
 
     fn of_geometry(&self) -> String {

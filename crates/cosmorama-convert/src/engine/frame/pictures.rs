@@ -6,7 +6,6 @@ use cosmorama::camera::View;
 use cosmorama::raster::{Encoder, FixedCodec, FixedLight, FramePool, Image, Rgba};
 use cosmorama::render::{Continuation, Progress, Share, Stopped};
 use cosmorama::world::Source;
-use cosmorama_io::WriteOptions;
 
 use crate::detect::FacePixels;
 use crate::detect::pixels::light_of;
@@ -44,6 +43,8 @@ pub(crate) struct Engine<'a> {
     /// Diagnostics about the geometry that are not told yet.
     told: Mutex<Vec<Diagnostic>>,
     writer: Writer,
+    /// Memory of a frame.
+    pub(super) needs: FrameNeeds,
     /// Frames that may be in flight around the one that is filtered.
     queue_depth: QueueDepth,
     /// Pool of memory that frames hand on.
@@ -97,15 +98,17 @@ impl<'a> Engine<'a> {
             Some(posed) if is_by_strips => posed.geometry.bytes() + strips.bytes() + bytes_of_passes(job),
             Some(posed) => posed.geometry.bytes(),
         };
+        let mut writer = Writer::new(&job.light, &job.layers.picture, options);
+        let needs = needs_of(job, writer.encoder_alone(), posed.as_deref());
         let threads = rayon::current_num_threads();
-        let mut queue_depth = job.memory.queue_depth(job.frame_needs(), job.target.files.len(), geometry, threads);
+        let frames = if job.outputs.go_on { usize::MAX } else { job.outputs.frames.len() };
+        let mut queue_depth = job.memory.queue_depth(needs, (frames, job.target.files.len()), geometry, threads);
         if !job.layers.groups.is_empty() {
             // Further channels take the memory of many pictures, which was kept for one frame.
             queue_depth.written = 1;
         }
-        let pool = Arc::new(FramePool::keeping(pool_bytes(job, queue_depth)));
-        let files = WriteOptions { pool: Arc::clone(&pool), ..options.files };
-        let writer = Writer::new(&job.light, &job.layers.picture, WriterOptions { files, ..options });
+        let pool = Arc::new(FramePool::keeping(pool_bytes(job, needs, queue_depth)));
+        writer.take_memory_of(Arc::clone(&pool));
         let (codec, posed, told) = (job.fixed_codec(), Mutex::new(posed), Mutex::new(told));
         let edges = job.worlds.iter().map(|_| OnceLock::new()).collect();
         let rows = job.rows_read().filter(|_| job.outputs.are_many());
@@ -122,6 +125,7 @@ impl<'a> Engine<'a> {
             strips,
             told,
             writer,
+            needs,
             queue_depth,
             pool,
             edges,
@@ -398,8 +402,7 @@ impl<'a> Engine<'a> {
     /// is done with its light, and each of its views has a plan.
     fn encoder_at_once(&self, sheets: &[&Sheet], light: &FrameLight, making: &Making) -> Option<(&Encoder, [u8; 3])> {
         let (job, geometry) = (self.job, &making.layer.posed.geometry);
-        let is_alone = self.is_solid() && self.is_complete(light) && job.layers.is_plain() && job.formula().is_none();
-        let is_plain = is_alone && !job.is_blurred && !job.is_balance_asked_for();
+        let is_plain = is_only_filtered(job) && !self.has_holes(light);
         let encoder = self.writer.encoder_alone().filter(|_| is_plain)?;
         let background = encoder.rgb(job.light.background)?;
         let mut pieces = sheets.iter().flat_map(|sheet| &sheet.pieces);
@@ -538,9 +541,27 @@ fn bytes_while_moving(job: &ConvertJob) -> u64 {
     plans.sum::<u64>().min(job.memory.left_for_plan(job.frame_needs(), rayon::current_num_threads()))
 }
 
+/// Returns whether nothing is done with the light of frames but filtering it, unless texels are missing.
+fn is_only_filtered(job: &ConvertJob) -> bool {
+    let is_alone = job.layers().count() == 1 && job.opacity >= 1.0 && job.is_complete();
+    let is_plain = job.layers.is_plain() && job.formula().is_none();
+    is_alone && is_plain && !job.is_blurred && !job.is_balance_asked_for()
+}
+
+/// Returns the memory of a frame. There are no pictures of light where samples are made at once of all frames: texels of integers are
+/// never missing.
+fn needs_of(job: &ConvertJob, encoder: Option<&Encoder>, posed: Option<&Posed>) -> FrameNeeds {
+    let is_integer = job.input.present().all(|(_, header, _)| !header.depth.is_float());
+    let is_encoded = |(posed, encoder): (&Posed, &Encoder)| {
+        (0..posed.views.len()).all(|index| posed.geometry.encodes(index, encoder))
+    };
+    let is_at_once = is_only_filtered(job) && is_integer && posed.zip(encoder).is_some_and(is_encoded);
+    if is_at_once { job.frame_needs_of_codes() } else { job.frame_needs() }
+}
+
 /// Returns how many bytes a pool may hold: as much as the frames in flight take, except their light, which has a buffer
 /// of its own. It is 0 for a single picture, after which no other would use the memory.
-fn pool_bytes(job: &ConvertJob, queue_depth: QueueDepth) -> u64 {
-    let FrameNeeds { light, prepared, .. } = job.frame_needs();
+fn pool_bytes(job: &ConvertJob, needs: FrameNeeds, queue_depth: QueueDepth) -> u64 {
+    let FrameNeeds { light, prepared, .. } = needs;
     if job.outputs.are_many() { queue_depth.bytes.saturating_sub(light).saturating_sub(prepared) } else { 0 }
 }

@@ -130,10 +130,16 @@ impl MemoryBudget {
         self.bytes.saturating_sub(program_bytes(threads, self.bytes))
     }
 
-    /// Returns how many frames may be in flight around the one that is filtered, beside the geometry that they share.
-    /// Each frame's files keep a thread busy, so more frames than threads are of no use.
-    pub(crate) fn queue_depth(self, needs: FrameNeeds, files: usize, plans: u64, threads: usize) -> QueueDepth {
-        let wanted = |files: usize| 1 + threads.div_ceil(files.max(1));
+    /// Returns how many of all frames, of so many files each, may be in flight around the one that is filtered, beside the geometry that
+    /// they share. Each frame's files keep a thread busy, so more frames than threads are of no use.
+    pub(crate) fn queue_depth(
+        self,
+        needs: FrameNeeds,
+        (frames, files): (usize, usize),
+        plans: u64,
+        threads: usize,
+    ) -> QueueDepth {
+        let wanted = |files: usize| (1 + threads.div_ceil(files.max(1))).min(frames);
         let room = self.beside_program(threads).saturating_sub(plans).saturating_sub(needs.shared);
         // By strips, pictures are encoded as they are made.
         let written = if needs.is_by_strips { 1 } else { wanted(files) };

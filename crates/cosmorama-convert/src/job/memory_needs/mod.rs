@@ -39,6 +39,9 @@ impl Held {
     /// Opaque pictures of 8 bits, filtered in integers.
     pub(crate) const INTEGERS: Self = Self { is_fixed: true, pixel: size_of::<[u8; 3]>() as u64, encoded: 0 };
 
+    /// Opaque pictures of 8 bits, made of light at once.
+    const CODES: Self = Self { is_fixed: false, pixel: size_of::<[u8; 3]>() as u64, encoded: 0 };
+
     /// Returns pictures of light that are encoded as files want them.
     pub(crate) fn floats(light: &Light) -> Self {
         Self::of_samples(light.file_bytes((1, 1)))
@@ -181,6 +184,11 @@ impl FrameNeeds {
         Self { shared: self.shared.saturating_add(bytes), ..self }
     }
 
+    /// Leaves out what is held of the input's pictures: maps of places need none of their light.
+    fn without_light(self) -> Self {
+        Self { samples: Samples::default(), light: 0, prepared: 0, footprints: 0, looked_at: 0, ..self }
+    }
+
     /// Returns the needs of one frame of many.
     pub(crate) fn of_many(self) -> Self {
         Self { samples: Samples { is_kept: true, ..self.samples }, ..self }
@@ -237,13 +245,15 @@ impl FrameNeeds {
     }
 
     /// Returns the bytes of a frame of a sequence, without what all share: the next one is read, and the one before written, while it
-    /// is made.
+    /// is made. Of those that are written there are samples alone.
     fn in_sequence(self) -> FrameMemory {
         let Samples { all, moving, scratch, .. } = self.samples;
-        let written = self.pictures.saturating_add(self.encoded);
+        let made = self.pictures.saturating_add(self.encoded);
+        // Integers are samples themselves.
+        let written = if self.encoded > 0 { self.encoded } else { self.pictures };
         let filtered = sum([self.prepared, self.piece, self.footprints, self.masks]);
         let once = sum([scratch, self.light, filtered.max(self.looked_at)]);
-        FrameMemory { all: sum([all, once, written]), read: moving, written }
+        FrameMemory { all: sum([all, once, made]), read: moving, written }
     }
 
     /// Returns the bytes that are made of pictures.
@@ -295,6 +305,15 @@ impl ConvertJob {
             _ if self.fixed_codec().is_some() => Held::INTEGERS,
             _ => Held::floats(&self.light),
         };
+        self.frame_needs_held(held)
+    }
+
+    /// Returns the memory that its frames need if they are opaque pictures of 8 bits, made of light at once.
+    pub(crate) fn frame_needs_of_codes(&self) -> FrameNeeds {
+        self.frame_needs_held(Held::CODES)
+    }
+
+    fn frame_needs_held(&self, held: Held) -> FrameNeeds {
         let needs = FrameNeeds::of(&self.input, &self.worlds, &self.target, held)
             .with_prepared(self.prepared)
             .beside_streams(self.input.ahead_bytes(&*self.files));
@@ -303,7 +322,8 @@ impl ConvertJob {
         let views = self.target.views.iter().map(|target| &target.view);
         let needs = needs.with_footprints(self.footprints);
         let needs = if self.has_masks() { needs.with_masks(views.map(size_of_view)) } else { needs };
-        if self.is_by_strips() { needs.by_strips_of(&self.target) } else { needs }
+        let needs = if self.is_by_strips() { needs.by_strips_of(&self.target) } else { needs };
+        if self.content == Content::StMap { needs.without_light() } else { needs }
     }
 
     /// Returns the bytes of the weights of the texels under its largest pixels, in a few of its shots.

@@ -48,9 +48,9 @@ impl<'w> PreparedLight<'w> {
         Self { world, texels, zonal, tree: OnceLock::new() }
     }
 
-    /// Returns about how many bytes the light takes for some lobes, beside those of blocks of texels.
-    pub fn bytes_for(lobes: &[Lobe]) -> usize {
-        ZonalLight::bytes_for(lobes)
+    /// Returns about how many bytes a world's light takes for some lobes, beside those of blocks of texels.
+    pub fn bytes_for(world: &World, lobes: &[Lobe]) -> usize {
+        ZonalLight::bytes_for(world, lobes)
     }
 
     /// Returns whether some of these lobes are so narrow that blocks of texels are gathered for them.

@@ -213,7 +213,7 @@ impl Engine<'_> {
             Some(Levels::Codes(mut made)) => {
                 made.pop().map(|image| EncodedImage::of_codes(self.rows_of(image, wanted)))
             }
-            Some(Levels::Written(_) | Levels::Layered { .. }) | None => None,
+            Some(Levels::Encoded(_) | Levels::Written(_) | Levels::Layered { .. }) | None => None,
         };
         encoded.ok_or_else(|| failure!("a strip has no picture"))
     }

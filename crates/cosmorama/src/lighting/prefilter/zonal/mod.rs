@@ -23,6 +23,7 @@ use super::light_tree::packet::{LANES, Packet};
 use super::lobe::{VisitWeight, Weight};
 use crate::raster::Rgba;
 use crate::sphere::Direction;
+use crate::world::World;
 
 /// The light of a world as spherical harmonics of high order, with the brightest texels apart.
 ///
@@ -39,8 +40,10 @@ pub(super) struct ZonalLight {
     has_negative: bool,
 }
 
-/// Grids that are held while light is gathered, at most.
+/// Grids that are held while light is gathered, at most: pieces that are merged, and the whole. Pieces of upright panoramas have few rows
+/// in common.
 const GATHERED: usize = 5;
+const GATHERED_BY_RINGS: usize = 2;
 
 /// A lobe with its bands, and the light under it as soon as it is asked for.
 struct WideLobe {
@@ -70,15 +73,18 @@ impl ZonalLight {
         Some(Self { spectrum, lobes, bright: bright.points, shown, least, has_negative })
     }
 
-    /// Returns about how many bytes grids and waves take for some lobes.
-    pub(super) fn bytes_for(lobes: &[Lobe]) -> usize {
+    /// Returns about how many bytes grids and waves of a world's light take for some lobes.
+    pub(super) fn bytes_for(world: &World, lobes: &[Lobe]) -> usize {
         let bands: Vec<usize> = lobes.par_iter().filter_map(Bands::of).map(|bands| bands.highest()).collect();
         let Some(most) = bands.iter().max() else { return 0 };
         let grid = |highest: &usize| 2 * GridSize::of(*highest).rows.pow(2) * size_of::<Channels>();
-        // Pieces that are merged, and the whole; later the light under each lobe. Waves of two transforms.
-        let gathered = GATHERED * grid(most);
-        let under = bands.iter().map(grid).sum();
-        gathered.max(under) + 2 * GridSize::of(*most).rows * (most + 1) * size_of::<Parts>()
+        let is_by_rings = world.sources().iter().all(|source| source.view.upright_cylinder().is_some());
+        let gathered = if is_by_rings { GATHERED_BY_RINGS } else { GATHERED } * grid(most);
+        let waves = GridSize::of(*most).rows * (most + 1) * size_of::<Parts>();
+        let spectrum = (most + 1).pow(2) / 2 * size_of::<Parts>();
+        // Waves are made of the whole grid, and then the spectrum of them; later waves and the light under each lobe of the spectrum.
+        let under: usize = bands.iter().map(grid).sum();
+        gathered.max(spectrum + waves + grid(most) + under)
     }
 
     /// Returns whether bands hold the light under all of some lobes.
