@@ -28,7 +28,7 @@ impl MemoryBudget {
             let (width, height) = (view.nominal.width(), view.nominal.height());
             format!("; the largest whole picture, {}, has {width}x{height} pixels", view.name)
         });
-        self.allow(needed, "the input", &largest)
+        self.allow(needed, "the input alone", &largest)
     }
 
     /// Checks that the outputs of a frame fit, before anything is made.
@@ -38,18 +38,18 @@ impl MemoryBudget {
             if is_large(target) && target.format.takes_rows() { Strips::of(sizes).first } else { pixels_in(sizes) };
         // Each exists as a picture, in one form or the other, or as samples.
         let least = light.file_bytes((1, 1)).min(Held::INTEGERS.pixel);
-        self.allow(pixels.saturating_mul(least), "a frame", &describe(target, "; "))
+        self.allow(pixels.saturating_mul(least), "the output alone", &size_of(target.files.first().map(|file| file.sheet.size)))
     }
 
     /// Checks that pictures of these sizes would fit in a frame, although they are only described.
     pub(crate) fn check_sizes(self, sizes: impl IntoIterator<Item = (usize, usize)>) -> Result<()> {
         let sizes: Vec<(usize, usize)> = sizes.into_iter().collect();
         let largest = sizes.iter().max_by_key(|size| area(**size));
-        let why = largest.map_or_else(String::new, |(width, height)| format!("; the output {width}x{height}"));
+        let why = size_of(largest.copied());
         let sizes = sizes.into_iter();
         // They may be made by strips.
         let pixels = if are_too_large(sizes.clone()) { Strips::of(sizes).first } else { pixels_in(sizes) };
-        self.allow(pixels.saturating_mul(Held::INTEGERS.pixel), "a frame", &why)
+        self.allow(pixels.saturating_mul(Held::INTEGERS.pixel), "the output alone", &why)
     }
 
     /// Checks that a frame with the light of all wanted views fits, before memory is allocated.
@@ -155,6 +155,10 @@ const SMALL: u64 = 64 << 20;
 fn with_program(pictures: u64, made: u64) -> u64 {
     let all = with_reserve(pictures).saturating_add(program_bytes(rayon::current_num_threads(), made));
     if all < SMALL { pictures } else { all }
+}
+
+fn size_of(output: Option<(usize, usize)>) -> String {
+    output.map_or_else(String::new, |(width, height)| format!("; it has {width}x{height} pixels"))
 }
 
 fn describe(target: &Target, link: &str) -> String {
