@@ -38,7 +38,11 @@ impl MemoryBudget {
             if is_large(target) && target.format.takes_rows() { Strips::of(sizes).first } else { pixels_in(sizes) };
         // Each exists as a picture, in one form or the other, or as samples.
         let least = light.file_bytes((1, 1)).min(Held::INTEGERS.pixel);
-        self.allow(pixels.saturating_mul(least), "the output alone", &size_of(target.files.first().map(|file| file.sheet.size)))
+        self.allow(
+            pixels.saturating_mul(least),
+            "the output alone",
+            &size_of(target.files.first().map(|file| file.sheet.size)),
+        )
     }
 
     /// Checks that pictures of these sizes would fit in a frame, although they are only described.
