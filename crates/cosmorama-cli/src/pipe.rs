@@ -184,6 +184,9 @@ impl Piped {
         let mut kept = KeptStreams { in_order, is_on_disk: true, ..KeptStreams::default() };
         args.input = kept.input(&args.input)?;
         args.backdrop = args.backdrop.map(|backdrop| kept.input(&backdrop)).transpose()?;
+        for kind in STREAMS {
+            console.call(named(&STDIN.into(), kind).path(), STDIN);
+        }
         Ok(Self { args, files: kept.files(), sink, is_closed, scratch, _kept: kept })
     }
 

@@ -245,6 +245,18 @@ pub enum IoError {
         /// Longest sequence in the folder.
         found: Option<String>,
     },
+    /// The first and the last frame of a sequence are too far apart for one.
+    #[error(
+        "{pattern}: the first frame is {} and the last {}, too far apart for one sequence; move what does not belong to it, or choose frames \
+         with --frames",
+        existing.0, existing.1
+    )]
+    FarFrames {
+        /// The pattern.
+        pattern: String,
+        /// First and last existing frame.
+        existing: (u64, u64),
+    },
     /// Frames of a sequence are missing.
     #[error(
         "{pattern}: {} missing: {missing}; the first that exists is {}, the last {}; make {}, or choose others with \

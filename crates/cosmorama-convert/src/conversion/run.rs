@@ -140,7 +140,7 @@ impl Checked {
         told.extend(engine.tallied_behind());
         // Maps of light are measured by frame.
         let output = &*settings.output;
-        if job.lighting.is_none() {
+        if job.lighting.is_none() && (job.light.depth.is_float() || warnings::is_of_any_range(job)) {
             told.extend(too_bright((job, output), (None, 0), engine.writer().overflowed()));
         }
         run.tell(told);

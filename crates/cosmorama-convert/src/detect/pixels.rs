@@ -12,6 +12,7 @@ use cosmorama_io::{Choice, Header, ImageFile, IoError, Limits};
 use crate::detect::oval::is_oval;
 use crate::detect::{Circles, Continuity, Twins, cross_variants, seams};
 use crate::diagnostic::{Code, ConvertError, Result, failed_as};
+use crate::source::memory_budget::read_bytes;
 use crate::source::{DecodedPicture, Files, MemoryBudget, light_bytes, probe, read, read_choice};
 
 /// Size, in bytes, above which an image is not decoded for detection only.
@@ -130,7 +131,8 @@ impl Seen {
         let seen = Evidence::of_image(&file.image).map_or(Self::Nothing, Self::Evidence);
         let may_be_cube = !layouts.is_empty() && matches!(seen, Self::Nothing | Self::Evidence(Evidence::Twins(_)));
         let borders = if may_be_cube { seams::among(layouts, &light(&file.image)) } else { None };
-        held.put(path, file);
+        let looked_at = if may_be_cube { light_bytes(header) } else { read_bytes(header) };
+        held.put(path, file, looked_at);
         (seen, borders)
     }
 }

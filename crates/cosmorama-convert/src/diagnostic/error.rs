@@ -217,6 +217,7 @@ fn of_file(error: &IoError) -> Code {
         IoError::NoFaces { .. }
         | IoError::MissingFaces { .. }
         | IoError::NoFrames { .. }
+        | IoError::FarFrames { .. }
         | IoError::MissingFrames { .. } => Code::NotFound,
         IoError::FaceIsFolder { .. } => Code::Unreadable,
         IoError::Empty { .. } | IoError::Damaged { .. } | IoError::LeftOut { .. } => Code::Damaged,

@@ -1,6 +1,6 @@
 //! Frames in order through three stages that overlap.
 //!
-//! One scheduling thread has files read ahead, filters the current frame, and has pictures written behind. All work runs in
+//! One scheduling thread has files read ahead, filters the current frame and encodes its light, and has pictures written behind. All work runs in
 //! one thread pool, so that codecs and the filter share the cores. Pool threads never block on a queue; only the scheduling
 //! thread does. They do not wait for disks; the threads of a second pool do. All queues are bounded, and keep the frames' order.
 
@@ -246,7 +246,7 @@ impl<'a> Sequence<'a> {
         &self,
         turn: Turn<'_, 's, '_>,
         frame: &FrameOutputs,
-        (pictures, light): (Vec<Levels>, &FrameLight),
+        (mut pictures, light): (Vec<Levels>, &FrameLight),
     ) -> Result<(Vec<Receiver<()>>, Results<()>)>
     where
         'a: 's,
@@ -254,8 +254,9 @@ impl<'a> Sequence<'a> {
         let Self { job, engine, stages, .. } = *self;
         let origin = job.origin_of(frame.frame)?.map(Arc::<str>::from);
         light.check_unchanged(job).at(|| named(frame))?;
-        let encode = |levels| self.pool.install(|| engine.writer().encoded(levels));
-        let pictures: Vec<Levels> = stages.among(Stage::Encode, || pictures.into_iter().map(encode).collect());
+        if pictures.iter().any(|levels| matches!(levels, Levels::Light(_))) {
+            self.pool.install(|| engine.writer().encode_all(&mut pictures));
+        }
         let words = FrameWords { place: turn.place - 1, carried: light.carried(), origin };
         let write = |((_, path), levels): (&(usize, PathBuf), Levels)| {
             let (path, words) = (path.clone(), words.clone());

@@ -138,8 +138,9 @@ pub(crate) fn suns(job: &ConvertJob, light: &FrameLight) -> Option<Diagnostic> {
 }
 
 /// Returns whether some input holds light beyond white. Numbers in one channel are no light but depth, or a mask.
-fn is_of_any_range(job: &ConvertJob) -> bool {
-    job.input.present().any(|(_, header, _)| header.depth.is_float() && header.channels.is_colour())
+pub(crate) fn is_of_any_range(job: &ConvertJob) -> bool {
+    let mut headers = job.layers().flat_map(|job| job.input.present()).map(|(_, header, _)| header);
+    headers.any(|header| header.depth.is_float() && header.channels.is_colour())
 }
 
 /// Returns whether the outputs show all directions, or nearly all.

@@ -3,12 +3,13 @@ use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
 
-use cosmorama::raster::{Depth, EncodedImage, Encoder, FramePool, Image, Rgba, Threads};
+use cosmorama::raster::{ColourChannel, Depth, EncodedImage, Encoder, Image, Rgba, Threads};
 use cosmorama_io::pending::Hidden;
 use cosmorama_io::{
     Carried, LayeredImage, LayeredRows, MadeLayers, MadeRows, Plane, Remark, WriteOptions, write_hidden,
     write_layer_rows_hidden, write_layers_hidden, write_rows_hidden,
 };
+use rayon::prelude::*;
 
 use crate::colour::{LayerPlan, Light, LightConversion, PictureNames};
 use crate::diagnostic::Result;
@@ -24,18 +25,8 @@ pub(crate) enum Levels {
     Encoded(Vec<EncodedImage>),
     /// File that is written, but for its name.
     Written(Hidden),
-    /// Light, if the picture is written, with further channels.
-    Layered { size: (usize, usize), picture: Option<Image<Rgba>>, planes: Vec<Plane> },
-}
-
-impl Levels {
-    /// Adds further channels to a picture of light.
-    pub(crate) fn with_planes(self, size: (usize, usize), planes: Vec<Plane>) -> Self {
-        match self {
-            Self::Light(levels) => Self::Layered { size, picture: levels.into_iter().next(), planes },
-            other => other,
-        }
-    }
+    /// Samples, if the picture is written, with further channels.
+    Layered { size: (usize, usize), picture: Option<EncodedImage>, planes: Vec<Plane> },
 }
 
 /// Options of a writer.
@@ -69,9 +60,9 @@ pub(crate) struct Writer {
     videos: Arc<MadeVideos>,
     /// Statement about the pixels that is known once they are made.
     said: OnceLock<Remark>,
-    /// Whether samples are half floats.
-    is_half: bool,
-    /// Samples so far that were brighter than a half float can be.
+    /// The brightest light that samples hold, but for rounding.
+    most: f32,
+    /// Samples so far that were brighter.
     overflowed: AtomicUsize,
 }
 
@@ -81,16 +72,11 @@ impl Writer {
             PictureNames::Given(names) => names.clone(),
             PictureNames::Usual | PictureNames::LeftOut => Vec::new(),
         };
-        let encoder = Encoder::new(light.channels, light.depth, &light.transfer);
-        let is_half = light.depth == Depth::Half;
+        let encoder = encoder_of(light);
+        let most = most_of(light);
         let (conversion, said, overflowed) = (light.output(), OnceLock::new(), AtomicUsize::new(0));
         let WriterOptions { files: options, videos } = options;
-        Self { conversion, encoder, names, options, videos, said, is_half, overflowed }
-    }
-
-    /// Takes the memory of samples from a pool.
-    pub(crate) fn take_memory_of(&mut self, pool: Arc<FramePool>) {
-        self.options.pool = pool;
+        Self { conversion, encoder, names, options, videos, said, most, overflowed }
     }
 
     /// Returns the encoder, if all that becomes of light is encoding.
@@ -98,7 +84,12 @@ impl Writer {
         self.conversion.is_none().then_some(&self.encoder)
     }
 
-    /// Returns the number of samples so far that are written as the largest half float, because they are brighter.
+    /// Returns the encoder of a writer of light, if all that becomes of it is encoding.
+    pub(crate) fn encoder_alone_of(light: &Light) -> Option<Encoder> {
+        light.output().is_none().then(|| encoder_of(light))
+    }
+
+    /// Returns the number of samples so far that are written as the largest of their type, because they are brighter.
     pub(crate) fn overflowed(&self) -> usize {
         self.overflowed.load(Ordering::Relaxed)
     }
@@ -115,26 +106,47 @@ impl Writer {
         Ok(self.videos.leave_out(place, &self.options.pool)?)
     }
 
+    /// Returns the number of samples of a picture that are brighter than their type holds. Colours of integers are divided by alpha.
+    fn brighter(&self, image: &Image<Rgba>) -> usize {
+        let has_alpha = self.encoder.channels().has_alpha() && !self.encoder.depth().is_float();
+        let most = self.most;
+        if most == f32::MAX {
+            return 0;
+        }
+        let is_brighter = |sample: f32, alpha: f32| sample.abs() > most * if has_alpha { alpha } else { 1.0 };
+        let of_pixel = |Rgba([red, green, blue, alpha]): &Rgba| {
+            [red, green, blue].into_iter().filter(|sample| is_brighter(**sample, *alpha)).count()
+        };
+        image.pixels().par_iter().with_min_len(1 << 14).map(of_pixel).sum()
+    }
+
     /// Encodes light, whose memory goes back to the pool.
     pub(crate) fn encode(&self, mut image: Image<Rgba>, threads: Threads) -> EncodedImage {
         if let Some(conversion) = &self.conversion {
             conversion.convert_all(image.pixels_mut(), threads);
         }
-        if self.is_half {
-            let colours = image.pixels().iter().flat_map(|pixel| &pixel.0[..3]);
-            let brighter = colours.filter(|sample| sample.abs() > Depth::Half.most()).count();
-            self.overflowed.fetch_add(brighter, Ordering::Relaxed);
-        }
+        self.overflowed.fetch_add(self.brighter(&image), Ordering::Relaxed);
         let encoded = self.encoder.encode_in(&image, threads, &self.options.pool);
         self.options.pool.give_image(image);
         encoded
     }
 
-    /// Encodes the light of a picture that is alone in its file, so that frames which wait to be written hold none.
-    pub(crate) fn encoded(&self, levels: Levels) -> Levels {
-        match levels {
-            Levels::Light(images) => {
-                Levels::Encoded(images.into_iter().map(|image| self.encode(image, Threads::All)).collect())
+    /// Encodes the light of a frame's pictures, so that those which wait to be written hold none.
+    pub(crate) fn encode_all(&self, pictures: &mut [Levels]) {
+        for levels in pictures {
+            if let Levels::Light(images) = levels {
+                let encoded = images.drain(..).map(|image| self.encode(image, Threads::All)).collect();
+                *levels = Levels::Encoded(encoded);
+            }
+        }
+    }
+
+    /// Adds further channels to a picture of light.
+    pub(crate) fn with_planes(&self, picture: Levels, size: (usize, usize), planes: Vec<Plane>) -> Levels {
+        match picture {
+            Levels::Light(levels) => {
+                let picture = levels.into_iter().next().map(|image| self.encode(image, Threads::All));
+                Levels::Layered { size, picture, planes }
             }
             other => other,
         }
@@ -204,7 +216,6 @@ impl Writer {
             Levels::Encoded(images) => images,
             Levels::Written(file) => return Ok(Some(file)),
             Levels::Layered { size, picture, planes } => {
-                let picture = picture.map(encode);
                 let layered = LayeredImage { size, picture: picture.as_ref(), names: self.names.clone(), planes };
                 let written = write_layers_hidden(path, layered, options);
                 picture.into_iter().for_each(|image| pool.give(image.into_samples()));
@@ -221,4 +232,19 @@ impl Writer {
         encoded.into_iter().for_each(|image| pool.give(image.into_samples()));
         Ok(Some(written?))
     }
+}
+
+/// Returns the brightest light that samples hold, but for rounding: the code of one, in integers.
+fn most_of(Light { depth, transfer, .. }: &Light) -> f32 {
+    const ROUNDING: f32 = 1.002;
+    match depth {
+        Depth::Half | Depth::Float => depth.most(),
+        Depth::Eight | Depth::Ten | Depth::Twelve | Depth::Sixteen => {
+            ROUNDING * transfer.decode(1.0, ColourChannel::Green) as f32
+        }
+    }
+}
+
+fn encoder_of(light: &Light) -> Encoder {
+    Encoder::new(light.channels, light.depth, &light.transfer)
 }

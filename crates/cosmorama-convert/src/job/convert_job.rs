@@ -25,6 +25,7 @@ use crate::input::Input;
 use crate::input::spec_files::st_map::settled;
 use crate::job::coverage::{Coverage, check_pictures, whole_worlds};
 use crate::job::origin::Origin;
+use crate::job::outputs::turn::frames_beside_turn;
 use crate::job::{Outputs, Space};
 use crate::settings::{BlurMethod, Conversion, GeometrySettings, LightSettings};
 use crate::source::{Access, ChosenFiles, DecodedPicture, Files, MemoryBudget};
@@ -160,7 +161,9 @@ impl ConvertJob {
     ) -> Result<Self> {
         let memory = MemoryBudget::new(settings.limits.memory);
         let file = content.has_files().then_some(&settings.input);
-        let decoded = DecodedPicture::up_to(memory.bytes / DECODED_PART);
+        // Nothing is read for maps of places.
+        let held = if settings.st_map { 0 } else { memory.bytes / DECODED_PART };
+        let decoded = DecodedPicture::up_to(held);
         let files = chosen(settings, content);
         let access = Access { files: &*files, memory, decoded: &decoded };
         let mut geometry = settled(&settings.geometry, file, access, warnings)?;
@@ -288,6 +291,7 @@ impl ConvertJob {
         };
         job.leave_finished(settings, purpose)?;
         warnings.extend(job.outputs.warnings());
+        warnings.extend(frames_beside_turn(&job));
         warnings.extend(Space::of(&job, settings.compression).warning(&job.outputs));
         job.check_scale()?;
         if content.has_files() {

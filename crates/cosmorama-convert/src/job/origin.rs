@@ -52,11 +52,11 @@ impl Origin {
         let all = || job.layers();
         let inputs = all().flat_map(|job| job.input.present());
         let views: Vec<_> = inputs.map(|(input, _, view)| (seen(view), input.part, input.blend)).collect();
-        let still = all().filter(|job| job.movement.is_none()).flat_map(|job| &job.target.views);
-        let still: Vec<_> = still.map(|target| seen(&target.view)).collect();
+        // Of a moving camera, those before it is moved.
+        let wanted: Vec<_> = all().flat_map(|job| &job.target.views).map(|target| seen(&target.view)).collect();
         let files: Vec<_> = job.target.files.iter().map(|file| file.levels().collect::<Vec<_>>()).collect();
         let shown: Vec<_> = job.target.views.iter().map(|view| (view.eye, view.level)).collect();
-        let geometry = digest(&(views, still, files, shown, job.target.envmap, job.target.panorama, st_map));
+        let geometry = digest(&(views, wanted, files, shown, job.target.envmap, job.target.panorama, st_map));
         let blur = job.movement.as_ref().and_then(|movement| movement.blur);
         let filter = digest(&(job.filter, &job.lighting, blur.map(|blur| (blur.method, blur.shutter.curve))));
         let lights: Vec<_> = all().map(|job| (job.light.definition(), job.opacity, job.missing)).collect();
@@ -148,7 +148,7 @@ fn checked(words: String) -> String {
 pub(crate) fn is_damaged(origin: &str) -> bool {
     match origin.rsplit_once(CHECK) {
         Some((words, check)) => check != words_digest(words),
-        None => origin.starts_with(VERSION),
+        None => origin.split(',').next() == Some(VERSION),
     }
 }
 
@@ -177,10 +177,10 @@ pub(crate) fn differences(found: &str, expected: &str) -> Vec<String> {
     names.filter(|name| *name != "check").map(str::to_owned).collect()
 }
 
-/// Returns the names of the parts in which two origins differ, and the first one's settings: fuzzing compares them without a conversion.
+/// Returns whether the first of two origins is damaged, the names of the parts in which they differ, and the first one's settings: fuzzing compares them without a conversion.
 #[cfg(fuzzing)]
-pub fn compared_origins<'a>(found: &'a str, expected: &str) -> (Vec<String>, Option<&'a str>) {
-    (differences(found, expected), settings_of(found))
+pub fn compared_origins<'a>(found: &'a str, expected: &str) -> (bool, Vec<String>, Option<&'a str>) {
+    (is_damaged(found), differences(found, expected), settings_of(found))
 }
 
 /// Returns the size of a view, its limits, and the directions at a lattice of its pixels.

@@ -4,7 +4,7 @@ pub(crate) struct QueueDepth {
     /// Frames that are being read or wait for their turn. If it is one, a frame is read when the one before it is
     /// finished and its samples are freed.
     pub(crate) read: usize,
-    /// Frames whose pictures exist: one is being made, the others are being encoded. If it is one, a picture is encoded
+    /// Frames whose pictures exist: one is being made, the others, in samples, are being written. If it is one, a picture is written
     /// before the next is made.
     pub(crate) written: usize,
     /// Bytes of all of them together, including the frame that is filtered, without what they share.

@@ -7,11 +7,11 @@ use crate::colour::{LayerPlan, Light};
 use crate::diagnostic::{
     Code, ConvertError, Diagnostic, FRAMES, MEMORY, OVERWRITE, RESUME, Result, failed_as, failure,
 };
-use crate::job::origin::{are_of_one_version, differences, is_damaged};
-use crate::job::{ConvertJob, DAMAGED_ORIGIN, FrameOutputs};
+use crate::job::origin::{DAMAGED_ORIGIN, are_of_one_version, differences, is_damaged};
+use crate::job::{ConvertJob, FrameOutputs};
 use crate::source::video::FrameName;
 use crate::source::{MemoryBudget, Stamp};
-use crate::target::TargetFile;
+use crate::target::{Movement, TargetFile};
 
 /// An output whose place holds something else than `--resume` expects.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -91,7 +91,8 @@ impl Resumed {
                 all.otherwise.extend(otherwise);
             }
         }
-        otherwise(&all.otherwise).map_or(Ok(all), Err)
+        let is_turn = job.movement.as_ref().is_some_and(Movement::is_turn);
+        otherwise(&all.otherwise, is_turn).map_or(Ok(all), Err)
     }
 
     fn of(frame: &mut FrameOutputs, job: &ConvertJob) -> Result<Self> {
@@ -248,8 +249,9 @@ fn newer_input(job: &ConvertJob, frame: Option<u64>, output: &Path) -> Option<Pa
     })
 }
 
-/// Returns the error about outputs that were made by other settings, or from other inputs, if there are any.
-fn otherwise(all: &[Otherwise]) -> Option<ConvertError> {
+/// Returns the error about outputs that were made by other settings, or from other inputs, if there are any. Some frames of a turn are not
+/// to be had alone.
+fn otherwise(all: &[Otherwise], is_turn: bool) -> Option<ConvertError> {
     let Otherwise { path, parts, .. } = all.first()?;
     let told = parts.iter().map(|part| match part.as_str() {
         "geometry" => "geometry (projections, size or orientation)",
@@ -260,12 +262,20 @@ fn otherwise(all: &[Otherwise]) -> Option<ConvertError> {
     });
     let told = told.collect::<Vec<_>>().join("; other ");
     let frames = FrameList::new(all.iter().filter_map(|one| one.frame)).to_string();
-    let (others, again) = if all.len() == 1 {
-        (String::new(), format!("make it again with {FRAMES} {frames} {OVERWRITE}"))
+    let (others, these, named) = if all.len() == 1 {
+        (String::new(), "it", "frame")
     } else {
         let more = all.len() - 1;
         let others = format!(", and {more} more {} made otherwise", if more == 1 { "was" } else { "were" });
-        (others, format!("make these again with {FRAMES} {frames} {OVERWRITE}"))
+        (others, "these", "frames")
+    };
+    let again = if is_turn {
+        format!(
+            "make all again with {OVERWRITE}, or remove {named} {frames} and go on with {RESUME}: {FRAMES} {frames} alone would be \
+             another turn"
+        )
+    } else {
+        format!("make {these} again with {FRAMES} {frames} {OVERWRITE}")
     };
     Some(failed_as(
         Code::Remade,

@@ -82,6 +82,11 @@ impl Movement {
         Ok(Some((movement, frames)))
     }
 
+    /// Returns whether the camera's poses depend on which frames are asked for: a turn goes from the first of them to the last.
+    pub(crate) fn is_turn(&self) -> bool {
+        matches!(self.camera, Some(Course::Turn(_)))
+    }
+
     /// Returns the movement of the camera before an input that stands still; `None` if nothing moves there.
     pub(crate) fn of_camera(&self) -> Option<Self> {
         self.camera.is_some().then(|| Self { input: None, ..self.clone() })

@@ -74,7 +74,7 @@ impl Owner {
     /// Returns whether a file was made on this machine, by a process that is gone.
     fn is_beside_gone(&self, maker: &Maker<'_>) -> bool {
         let is_beside = self.machine.as_deref() == Some(maker.machine);
-        is_beside && !Path::new("/proc").join(maker.process.to_string()).exists()
+        is_beside && !runs(maker.process)
     }
 }
 
@@ -95,6 +95,16 @@ impl<'a> Maker<'a> {
             && random.len() == RANDOM
             && is_all(random, char::is_ascii_alphanumeric);
         Some(Self { machine, process: process.parse().ok()? }).filter(|_| is_made)
+    }
+}
+
+/// Returns whether a process runs. One that has ended, and that its parent has not asked about, does not.
+fn runs(process: u32) -> bool {
+    let process = Path::new("/proc").join(process.to_string());
+    match fs::read_to_string(process.join("stat")) {
+        // The state follows the program's name, which may hold anything, in parentheses.
+        Ok(stat) => !stat.rsplit(')').next().is_some_and(|state| state.trim_start().starts_with(['Z', 'X'])),
+        Err(_) => process.exists(),
     }
 }
 
@@ -153,6 +163,12 @@ mod tests {
         let own = [".cosmorama-abcdef.part", ".cosmorama-my-4194305-notes.part"].map(str::to_owned);
         let almost = [gone.replace("abcdef", "abcdefg"), gone.replace("4194305", "4194305x")];
         make(&gone);
+        // A process that has ended, and waits for its parent.
+        let mut ended = std::process::Command::new("true").spawn().unwrap();
+        while runs(ended.id()) {
+            std::thread::yield_now();
+        }
+        make(&gone.replace("4194305", &ended.id().to_string()));
         fs::create_dir(folder.path().join(gone.replace("abcdef", "folder"))).unwrap();
         std::os::unix::fs::symlink("/", folder.path().join(gone.replace("abcdef", "linked"))).unwrap();
         for name in [&alive, elsewhere, "mine.part", ".cosmorama-mine"] {
@@ -164,6 +180,7 @@ mod tests {
         }
         let begun = Pending::create(&folder.path().join("out.png"), &Unfinished::default()).unwrap();
         drop(begun);
+        ended.wait().unwrap();
         let names = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
         let expected = [alive.as_str(), elsewhere, "mine.part", ".cosmorama-mine"].map(str::to_owned);
         assert_eq!(names.collect::<BTreeSet<_>>(), expected.into_iter().chain(own).chain(almost).collect());

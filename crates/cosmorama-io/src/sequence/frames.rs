@@ -24,12 +24,15 @@ pub struct Frames {
     list: FrameList,
 }
 
+/// Frames from the first to the last of one sequence, at most.
+const MOST: u64 = 10_000_000;
+
 impl Frames {
     /// Finds the requested frames, or all that exist.
     ///
     /// # Errors
     /// When there are no frames, a requested frame is missing, or, without a list, a frame between the first and the
-    /// last is missing. The message names all missing frames.
+    /// last is missing, or these two are more than ten million apart. The message names all missing frames.
     pub fn find(pattern: FramePattern, wanted: Option<&FrameList>) -> Result<Self, IoError> {
         let existing = pattern.existing()?;
         let (Some(&first), Some(&last)) = (existing.first(), existing.last()) else {
@@ -41,6 +44,9 @@ impl Frames {
         };
         let missing = match wanted {
             Some(list) => FrameList::new(list.frames().iter().copied().filter(|frame| !existing.contains(frame))),
+            None if last - first >= MOST => {
+                return Err(IoError::FarFrames { pattern: pattern.as_str().to_owned(), existing: (first, last) });
+            }
             None => holes(&existing, first, last),
         };
         if missing.frames().is_empty() {
@@ -76,8 +82,7 @@ fn no_frames(pattern: &FramePattern) -> IoError {
 
 /// Returns the missing frames between the first and the last; at most the first million.
 fn holes(existing: &BTreeSet<u64>, first: u64, last: u64) -> FrameList {
-    const MOST: usize = 1_000_000;
-    FrameList::new((first..=last).filter(|frame| !existing.contains(frame)).take(MOST))
+    FrameList::new((first..=last).filter(|frame| !existing.contains(frame)))
 }
 
 #[cfg(test)]

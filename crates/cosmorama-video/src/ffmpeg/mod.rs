@@ -207,6 +207,11 @@ fn version_of(name: &'static str, program: &Path) -> Result<Version, VideoError>
             },
         )?;
     let found = Version::of_words(&String::from_utf8_lossy(&said.stdout));
+    if found.is_none() && !said.is_success {
+        // Too little memory for its libraries, for example.
+        let source = std::io::Error::other(said.last_words());
+        return Err(VideoError::Run { program: name.to_owned(), source });
+    }
     found.filter(|version| *version >= Ffmpeg::OLDEST).ok_or_else(|| VideoError::TooOld {
         program: name,
         found: found.map_or_else(|| "unknown".to_owned(), |version| version.to_string()),

@@ -51,7 +51,7 @@ impl Presence {
         source.shows(pixel).then(|| Self::at(index, source, pixel))
     }
 
-    /// Returns whether the view's texels are as small as the smallest, given by their solid angle, of all views.
+    /// Returns whether its texels are as small as the smallest of all, whose solid angle is `least`.
     fn is_as_fine(&self, least: f64) -> bool {
         const ROUNDING: f64 = 1.000_001;
         self.solid_angle <= least * ROUNDING
@@ -65,18 +65,17 @@ impl Presence {
 pub(crate) fn parts(present: &[Presence]) -> Vec<f64> {
     let mut parts = vec![0.0; present.len()];
     let mut left = 1.0;
-    let mut priorities: Vec<i32> = present.iter().map(|one| one.blend.priority).collect();
-    priorities.sort_unstable_by_key(|priority| std::cmp::Reverse(*priority));
-    priorities.dedup();
-    for priority in priorities {
-        let group = || present.iter().enumerate().filter(move |(_, one)| one.blend.priority == priority);
-        let fades = group().any(|(_, one)| one.blend.feather.radians() > 0.0);
-        let least = group().map(|(_, one)| one.solid_angle).fold(f64::INFINITY, f64::min);
+    let mut order: Vec<usize> = (0..present.len()).collect();
+    order.sort_by_key(|at| std::cmp::Reverse(present[*at].blend.priority));
+    for group in order.chunk_by(|a, b| present[*a].blend.priority == present[*b].blend.priority) {
+        let all = || group.iter().map(|at| &present[*at]);
+        let fades = all().any(|one| one.blend.feather.radians() > 0.0);
+        let least = all().map(|one| one.solid_angle).fold(f64::INFINITY, f64::min);
         let weigh = |one: &Presence| if fades { one.weight } else { f64::from(u8::from(one.is_as_fine(least))) };
-        let sum: f64 = group().map(|(_, one)| weigh(one)).sum();
+        let sum: f64 = all().map(weigh).sum();
         if sum > 0.0 {
             let covered = sum.min(1.0);
-            group().for_each(|(at, one)| parts[at] = left * covered * weigh(one) / sum);
+            group.iter().for_each(|at| parts[*at] = left * covered * weigh(&present[*at]) / sum);
             left *= 1.0 - covered;
         }
     }

@@ -19,7 +19,7 @@ pub(crate) use halved::held;
 pub use light::{Light, LightError, PictureError};
 pub use mask::shape::MaskShape;
 pub use mask::view_mask::ViewMask;
-pub use search::bounding_cone::SeenCone;
+pub use search::coverage::SphereCoverage;
 pub(crate) use search::view_index::Near;
 pub use solid_angles::SolidAngles;
 pub use st_pixels::{ST_NOWHERE, StPixel};

@@ -1,7 +1,6 @@
 //! Report of `info` on a file, a face set or a world.
 
 mod carried;
-mod coverage;
 mod faces;
 mod layers;
 mod video;

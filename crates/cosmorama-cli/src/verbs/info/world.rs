@@ -1,10 +1,10 @@
 //! Report of `info` on worlds of many views.
 
 use anyhow::Result;
+use cosmorama::world::SphereCoverage;
 use cosmorama_convert::{Files, InputView, Listed, MemoryBudget, Name, existing_frames, listed};
 use serde_json::{Value, json};
 
-use super::coverage::Coverage;
 use super::{add_damage, damages};
 use crate::console::Console;
 
@@ -13,7 +13,7 @@ pub(super) fn report(files: &dyn Files, (name, check): (&Name, bool), console: &
     let mut warnings = Vec::new();
     let Some(list) = listed(name, files, MemoryBudget::new(None), &mut warnings)? else { return Ok(None) };
     warnings.iter().for_each(|warning| console.warn(warning));
-    let mut coverage = Coverage::new();
+    let mut coverage = SphereCoverage::new();
     let reading = check.then_some(files);
     let views = list.iter().map(|listed| views(listed, &mut coverage, reading)).collect::<Result<Vec<_>>>()?.concat();
     let mut report = json!({
@@ -30,11 +30,14 @@ pub(super) fn report(files: &dyn Files, (name, check): (&Name, bool), console: &
 }
 
 /// Returns the report on each view. What the first eye's show is added to what is covered.
-fn views(listed: &Listed, coverage: &mut Coverage, reading: Option<&dyn Files>) -> Result<Vec<Value>> {
+fn views(listed: &Listed, coverage: &mut SphereCoverage, reading: Option<&dyn Files>) -> Result<Vec<Value>> {
     let mut reports = Vec::new();
     for (eye, world) in listed.input.worlds.iter().enumerate() {
         for view in world {
-            let share = if eye == 0 { coverage.add(view) } else { coverage.share_of(view) };
+            let mask = view.mask.as_deref();
+            let share = view.window.as_ref().map_or(0.0, |(held, _)| {
+                if eye == 0 { coverage.add(held, mask) } else { coverage.share_of(held, mask) }
+            });
             let mut report = of_view(listed, view, share);
             if let (Some(files), Some(_)) = (reading, &view.header) {
                 add_damage(&mut report, damages(files, &view.files, &existing_frames(&view.files, files)?));

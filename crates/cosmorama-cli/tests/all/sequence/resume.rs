@@ -322,3 +322,33 @@ fn resumed(bench: &Bench, args: &[&str]) {
         serde_json::from_str(&bench.succeed(&[args, &["--resume", "--json"]].concat())).expect("a report");
     assert_eq!((&report["frames"], &report["skipped"]), (&0.into(), &1.into()), "{args:?}: {report}");
 }
+
+#[test]
+fn some_frames_of_a_turn_alone_are_another_turn() {
+    let bench = Bench::new();
+    for frame in 1..=5 {
+        bench.save(&format!("sky_{frame}.png"), &picture(frame, 64, 32));
+    }
+    let dome = ["convert", "sky_#.png", "out_#.png", "--from", "equirect", "--to", "fulldome:tilt=20", "--size", "16"];
+    let turn = [&dome[..], &["--yaw", "0..60"]].concat();
+    bench.succeed(&turn);
+    let expected = bench.bytes("out_3.png");
+    let told = text(&bench.run(&[&turn[..], &["--frames", "4,3", "-y"]].concat()).stderr);
+    assert_says(&told, &["out_1.png and 2 more exist", "--frames 3-4", "--resume", "--path"]);
+    let told = bench.fail(1, &[&turn[..], &["--resume"]].concat());
+    assert_says(&told, &["out_3.png was made with other poses", "remove frame", "would be another turn"]);
+    for name in ["out_3.png", "out_4.png"] {
+        std::fs::remove_file(bench.path(name)).unwrap();
+    }
+    assert!(!bench.succeed(&[&turn[..], &["--resume"]].concat()).contains("no part of this turn"));
+    assert!(bench.bytes("out_3.png") == expected);
+    // Of a path, frames have their own poses; one of another tilt is found.
+    std::fs::write(bench.path("path.csv"), "frame,yaw,pitch,roll\n1,0,0,0\n5,60,0,0\n").unwrap();
+    bench.succeed(&[&dome[..], &["--path", "path.csv", "-y"]].concat());
+    bench.succeed(&[&dome[..], &["--path", "path.csv", "-y", "--frames", "2"]].concat());
+    assert_eq!(bench.succeed(&["verify", "out_#.png"]), "5 frames are whole and alike\n");
+    let tilted = dome.map(|word| if word == "fulldome:tilt=20" { "fulldome:tilt=25" } else { word });
+    bench.succeed(&[&tilted[..], &["--path", "path.csv", "-y", "--frames", "2"]].concat());
+    let verified = text(&bench.run(&["verify", "out_#.png"]).stdout);
+    assert_says(&verified, &["made by other settings than most: 2"]);
+}

@@ -1,6 +1,6 @@
 //! What running promises: threads, frames, reports, interrupts.
 
-use crate::bench::{Bench, flat, picture};
+use crate::bench::{Bench, assert_says, flat, picture, text};
 use cosmorama::sphere::CubeFace;
 use serde_json::Value;
 
@@ -378,4 +378,30 @@ fn what_every_frame_has_is_told_once_with_the_sum() {
     let told = report["warnings"].as_array().unwrap();
     let told: Vec<&str> = told.iter().filter_map(Value::as_str).filter(|told| told.contains("infinite")).collect();
     assert_eq!(told, ["sky_1.exr and 2 other files: 3 pixels are infinite and count as 65504, the largest half float"]);
+}
+
+#[test]
+fn light_that_integers_do_not_hold_is_told() {
+    let bench = Bench::new();
+    bench.save("sky.exr", &crate::bench::floats(64, 32, |i, _| if i < 8 { [9.0; 3] } else { [0.5; 3] }));
+    bench.save("dim.exr", &crate::bench::floats(64, 32, |_, _| [1.0, 0.9, 0.0]));
+    let to = ["--from", "equirect", "--to", "equirect:yaw=20", "--size", "64", "-y"];
+    for (out, depth) in [("out.png", "8"), ("out.png", "16"), ("out.tif", "16")] {
+        let convert =
+            |input: &str| text(&bench.run(&[&["convert", input, out, "--depth", depth][..], &to].concat()).stderr);
+        assert_says(&convert("sky.exr"), &[&format!("{out}: "), &format!("brighter than --depth {depth} holds")]);
+        assert!(!convert("dim.exr").contains("warning"), "{out}");
+    }
+    let told = text(&bench.run(&[&["convert", "sky.exr", "out.exr"][..], &to].concat()).stderr);
+    assert!(!told.contains("brighter"), "{told}");
+}
+
+#[test]
+fn a_frame_far_from_all_others_is_no_part_of_a_sequence() {
+    let bench = Bench::new();
+    for frame in ["1", "2", "999999999"] {
+        bench.save(&format!("sky_{frame}.png"), &picture(1, 64, 32));
+    }
+    let told = bench.fail(1, &["convert", "sky_#.png", "out_#.png", "--from", "equirect", "--to", "fulldome"]);
+    assert_says(&told, &["the first frame is 1 and the last 999999999", "too far apart", "--frames"]);
 }

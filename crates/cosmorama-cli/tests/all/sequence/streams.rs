@@ -37,6 +37,7 @@ fn pictures_of_netpbm_chain() {
     bench.succeed(&[&["convert", "sky_#.png", "dome_#.png"], &DOME[..]].concat());
     let output = piped(&bench, &[&["convert", "-", "-", "--format", "pam"], &DOME[..]].concat(), &frames);
     assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(!text(&output.stderr).contains("frames a second, since"), "PAM has no rate: {}", text(&output.stderr));
     let end = b"ENDHDR\n";
     let heads = output.stdout.windows(end.len()).enumerate().filter(|(_, window)| window == end);
     let made: Vec<&[u8]> = heads.map(|(at, _)| &output.stdout[at + end.len()..][..16 * 16 * 3]).collect();

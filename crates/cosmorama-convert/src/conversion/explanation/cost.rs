@@ -57,6 +57,10 @@ struct Nanoseconds {
     written: f64,
 }
 
+/// Nanoseconds of each pixel that shows something, and of each texel that is averaged, where the geometry is computed, too: those of
+/// tilted domes of 512² to 2048² from panoramas of 1024×512 and 4096×2048 (docs/performance.md, "A moving camera").
+const GEOMETRY: (f64, f64) = (65.0, 5.5);
+
 impl CostedFiles {
     /// All kinds.
     pub const ALL: [Self; 2] = [Self::EightBits, Self::Halves];
@@ -107,11 +111,14 @@ impl Explanation {
         let needs = FrameNeeds::of_pictures(input, worlds, (pixels, largest), held).with_prepared(prepared);
         let views = self.pictures().iter().map(|picture| &picture.view);
         let needs = needs.with_footprints(self.pool.install(|| footprint_bytes(self.filter.kind, input, views)));
+        let needs = needs.with_encoders_of(files.format());
         let needs = if are_too_large(sizes.iter().copied()) { needs.by_strips(files.format(), &sizes) } else { needs };
         let plan = |report: &explain::Report| {
             if held == Held::INTEGERS { report.memory.fixed_plan } else { report.memory.plan }
         };
-        let plans: u64 = reports.iter().map(|report| plan(report) as u64).sum();
+        // A camera that moves has another geometry in each frame, of which none is kept.
+        let is_moving = self.movement.is_some();
+        let plans = if is_moving { 0 } else { reports.iter().map(|report| plan(report) as u64).sum() };
         let threads = self.pool.current_num_threads();
         let depth = self.memory.queue_depth(needs, (usize::MAX, self.pictures().len()), plans, threads);
         let of_job = [needs.shared, plans, depth.bytes].into_iter().fold(0, u64::saturating_add);
@@ -119,7 +126,7 @@ impl Explanation {
         let raw = pixels.saturating_mul(files.pixel_bytes());
         SequenceCost {
             files,
-            cpu_seconds: seconds(files, input, raw, reports),
+            cpu_seconds: seconds((files, is_moving), input, raw, reports),
             picture_bytes: with_program(needs.peak()),
             job_bytes: with_program(of_job),
             frame_bytes: compressed(raw, files.format(), None),
@@ -151,9 +158,10 @@ impl Explanation {
     }
 }
 
-/// Returns the processor seconds of a frame.
-fn seconds(files: CostedFiles, input: &Input, raw: u64, reports: &[explain::Report]) -> f64 {
+/// Returns the processor seconds of a frame, whose geometry is kept unless the camera moves.
+fn seconds((files, is_moving): (CostedFiles, bool), input: &Input, raw: u64, reports: &[explain::Report]) -> f64 {
     let Nanoseconds { pixel, texel, read, written } = files.nanoseconds();
+    let (pixel, texel) = if is_moving { GEOMETRY } else { (pixel, texel) };
     let filtered = |report: &explain::Report| {
         let shown = (report.size.0 * report.size.1) as f64 * report.shown;
         shown * (pixel + texel * report.gathered.mean)

@@ -29,7 +29,7 @@ pub enum Fault {
     },
     /// The picture has other channels or another depth than most; what it has, in words.
     Kind(String),
-    /// The file says that it was made by other settings than most.
+    /// The file says that it was made by other settings than most, or says nothing where most do.
     Settings,
     /// No colour differs from black.
     Black,
@@ -66,7 +66,7 @@ pub(super) fn faults(frames: &[Frame], size: Option<Size>) -> Vec<Faults> {
     let usual = || most(frames.iter().filter_map(|frame| Some(frame.picture()?.size)));
     let size = size.or_else(|| usual().map(|(width, height)| Size { width, height: Some(height) }));
     let kind = most(frames.iter().filter_map(|frame| Some(frame.picture()?.kind.as_str())));
-    let settings = most(frames.iter().filter_map(|frame| frame.picture()?.settings.as_deref()));
+    let settings = UsualSettings::of(frames);
     let judged = frames.iter().enumerate().map(|(at, frame)| {
         let neighbour = |offset: isize| {
             let other = frames.get(at.checked_add_signed(offset)?)?;
@@ -75,22 +75,44 @@ pub(super) fn faults(frames: &[Frame], size: Option<Size>) -> Vec<Faults> {
         let faults = match &frame.found {
             Found::Nothing => vec![Fault::Missing],
             Found::Damage(reason) => vec![Fault::Damaged(reason.clone())],
-            Found::Picture(picture) => of_picture(picture, (size, kind, settings), [neighbour(-1), neighbour(1)]),
+            Found::Picture(picture) => of_picture(picture, (size, kind, &settings), [neighbour(-1), neighbour(1)]),
         };
         Faults { frame: frame.number, faults }
     });
     judged.filter(|judged| !judged.faults.is_empty()).collect()
 }
 
+/// Settings by which most frames were made.
+struct UsualSettings<'a> {
+    /// Those that most frames tell of all that tell any.
+    usual: Option<&'a str>,
+    /// Whether most frames tell theirs: one that does not was made otherwise, or its words are damaged.
+    are_told: bool,
+}
+
+impl<'a> UsualSettings<'a> {
+    fn of(frames: &'a [Frame]) -> Self {
+        let pictures = || frames.iter().filter_map(Frame::picture);
+        let told = || pictures().filter_map(|picture| picture.settings.as_deref());
+        Self { usual: most(told()), are_told: 2 * told().count() > pictures().count() }
+    }
+
+    fn differ_from(&self, picture: &Picture) -> bool {
+        match picture.settings.as_deref() {
+            Some(own) => self.usual.is_some_and(|usual| usual != own),
+            None => self.are_told,
+        }
+    }
+}
+
 fn of_picture(
     picture: &Picture,
-    (size, kind, settings): (Option<Size>, Option<&str>, Option<&str>),
+    (size, kind, settings): (Option<Size>, Option<&str>, &UsualSettings),
     [before, after]: [Option<&Picture>; 2],
 ) -> Vec<Fault> {
     let (width, height) = picture.size;
     let of_size = size.filter(|size| size.width != width || size.height.is_some_and(|rows| rows != height));
     let of_kind = kind.filter(|kind| *kind != picture.kind);
-    let of_settings = settings.zip(picture.settings.as_deref()).filter(|(usual, own)| usual != own);
     let is_frozen = !picture.is_black && before.is_some_and(|before| before.equals(picture));
     let is_flash = before.zip(after).is_some_and(|(before, after)| {
         let nearest = distance_squared(picture, before).min(distance_squared(picture, after));
@@ -99,7 +121,7 @@ fn of_picture(
     [
         of_size.map(|expected| Fault::Size { found: picture.size, expected }),
         of_kind.map(|_| Fault::Kind(picture.kind.clone())),
-        of_settings.map(|_| Fault::Settings),
+        settings.differ_from(picture).then_some(Fault::Settings),
         picture.is_black.then_some(Fault::Black),
         is_frozen.then_some(Fault::Frozen),
         is_flash.then_some(Fault::Flash),
@@ -167,6 +189,13 @@ mod tests {
             (12, vec!["flash"]),
         ];
         assert_eq!(judged(pictures.into_iter().chain(rest)), expected);
+    }
+
+    #[test]
+    fn a_frame_that_says_nothing_among_those_that_do_was_made_otherwise() {
+        let told = |code: u8| Some(Picture { settings: Some("a".to_owned()), ..grey(code) });
+        assert_eq!(judged([told(20), told(21), Some(grey(22)), told(23)]), [(3, vec!["settings"])]);
+        assert_eq!(judged([told(20), Some(grey(21)), Some(grey(22)), told(23)]), []);
     }
 
     #[test]

@@ -14,7 +14,7 @@ impl Engine<'_> {
         if self.job.outputs.are_many() {
             let QueueDepth { read, written, bytes } = self.queue_depth();
             let message = format!(
-                "{read} read and {written} made or written at once, as many as memory and threads permit; they take up to {}",
+                "{read} read and {written} made or written at once, as many as there are, or as memory and threads permit; they take up to {}",
                 human(bytes)
             );
             told.push(Decision::new(Topic::Frames, message));
@@ -42,7 +42,9 @@ impl Engine<'_> {
         let own = [needs.shared, self.queue_depth().bytes, geometry];
         let behind = job.layers().skip(1).map(|job| job.frame_needs().peak());
         let pictures = own.into_iter().chain(behind).fold(0, u64::saturating_add);
-        program_bytes(threads, needs.made()).saturating_add(with_reserve(pictures))
+        // Each frame in flight is worked on by a thread.
+        let in_flight = (self.queue_depth().read + self.queue_depth().written) as u64;
+        program_bytes(threads, needs.made().saturating_mul(in_flight)).saturating_add(with_reserve(pictures))
     }
 
     fn of_geometry(&self) -> String {

@@ -6,6 +6,7 @@ use cosmorama::camera::View;
 use cosmorama::raster::{Encoder, FixedCodec, FixedLight, FramePool, Image, Rgba};
 use cosmorama::render::{Continuation, Progress, Share, Stopped};
 use cosmorama::world::Source;
+use cosmorama_io::{Format, WriteOptions};
 
 use crate::detect::FacePixels;
 use crate::detect::pixels::light_of;
@@ -98,8 +99,7 @@ impl<'a> Engine<'a> {
             Some(posed) if is_by_strips => posed.geometry.bytes() + strips.bytes() + bytes_of_passes(job),
             Some(posed) => posed.geometry.bytes(),
         };
-        let mut writer = Writer::new(&job.light, &job.layers.picture, options);
-        let needs = needs_of(job, writer.encoder_alone(), posed.as_deref());
+        let needs = needs_of(job, posed.as_deref());
         let threads = rayon::current_num_threads();
         let frames = if job.outputs.go_on { usize::MAX } else { job.outputs.frames.len() };
         let mut queue_depth = job.memory.queue_depth(needs, (frames, job.target.files.len()), geometry, threads);
@@ -108,7 +108,8 @@ impl<'a> Engine<'a> {
             queue_depth.written = 1;
         }
         let pool = Arc::new(FramePool::keeping(pool_bytes(job, needs, queue_depth)));
-        writer.take_memory_of(Arc::clone(&pool));
+        let files = WriteOptions { pool: Arc::clone(&pool), ..options.files };
+        let writer = Writer::new(&job.light, &job.layers.picture, WriterOptions { files, ..options });
         let (codec, posed, told) = (job.fixed_codec(), Mutex::new(posed), Mutex::new(told));
         let edges = job.worlds.iter().map(|_| OnceLock::new()).collect();
         let rows = job.rows_read().filter(|_| job.outputs.are_many());
@@ -334,7 +335,7 @@ impl<'a> Engine<'a> {
         let made = pass.make(&FurtherFiles::new(self.job, frame.frame), &sheets, shares)?;
         let size = |(index, _): &(usize, PathBuf)| self.job.target.files[*index].sheet.size;
         let all = frame.files.iter().map(size).zip(pictures).zip(made);
-        Ok(all.map(|((size, picture), planes)| picture.with_planes(size, planes)).collect())
+        Ok(all.map(|((size, picture), planes)| self.writer.with_planes(picture, size, planes)).collect())
     }
 
     /// Makes the maps of light of a frame, and measures them.
@@ -387,7 +388,7 @@ impl<'a> Engine<'a> {
             return Ok(Levels::Codes(sheets.iter().map(picture).collect::<Result<_>>()?));
         }
         if let (Texels::Float(worlds), Some((encoder, background))) =
-            (light.texels(), self.encoder_at_once(sheets, light, making))
+            (light.texels(), self.encoder_at_once(sheets, making))
         {
             let mut view = |index| self.samples(index, (worlds, encoder), making);
             let picture = |sheet: &&Sheet| sheet.assemble_in(&self.pool, background, &mut view);
@@ -400,10 +401,9 @@ impl<'a> Engine<'a> {
 
     /// Returns the encoder of sheets whose samples are made at once, without pictures of light, and those of the background: nothing else
     /// is done with its light, and each of its views has a plan.
-    fn encoder_at_once(&self, sheets: &[&Sheet], light: &FrameLight, making: &Making) -> Option<(&Encoder, [u8; 3])> {
+    fn encoder_at_once(&self, sheets: &[&Sheet], making: &Making) -> Option<(&Encoder, [u8; 3])> {
         let (job, geometry) = (self.job, &making.layer.posed.geometry);
-        let is_plain = is_only_filtered(job) && !self.has_holes(light);
-        let encoder = self.writer.encoder_alone().filter(|_| is_plain)?;
+        let encoder = self.writer.encoder_alone().filter(|_| is_only_filtered(job))?;
         let background = encoder.rgb(job.light.background)?;
         let mut pieces = sheets.iter().flat_map(|sheet| &sheet.pieces);
         pieces.all(|(index, _)| geometry.encodes(*index, encoder)).then_some((encoder, background))
@@ -541,21 +541,23 @@ fn bytes_while_moving(job: &ConvertJob) -> u64 {
     plans.sum::<u64>().min(job.memory.left_for_plan(job.frame_needs(), rayon::current_num_threads()))
 }
 
-/// Returns whether nothing is done with the light of frames but filtering it, unless texels are missing.
+/// Returns whether nothing is done with the light of frames but filtering and encoding it. Of formats that hold floats, texels may be
+/// missing in any frame, and light may be brighter than samples hold, which is counted.
 fn is_only_filtered(job: &ConvertJob) -> bool {
+    let is_integer = |format: Format| format.depths().iter().all(|depth| !depth.is_float());
+    let are_integers = job.input.present().all(|(_, header, _)| is_integer(header.format));
     let is_alone = job.layers().count() == 1 && job.opacity >= 1.0 && job.is_complete();
     let is_plain = job.layers.is_plain() && job.formula().is_none();
-    is_alone && is_plain && !job.is_blurred && !job.is_balance_asked_for()
+    are_integers && is_alone && is_plain && !job.is_blurred && !job.is_balance_asked_for()
 }
 
-/// Returns the memory of a frame. There are no pictures of light where samples are made at once of all frames: texels of integers are
-/// never missing.
-fn needs_of(job: &ConvertJob, encoder: Option<&Encoder>, posed: Option<&Posed>) -> FrameNeeds {
-    let is_integer = job.input.present().all(|(_, header, _)| !header.depth.is_float());
+/// Returns the memory of a frame. There are no pictures of light where samples are made at once.
+fn needs_of(job: &ConvertJob, posed: Option<&Posed>) -> FrameNeeds {
+    let encoder = Writer::encoder_alone_of(&job.light);
     let is_encoded = |(posed, encoder): (&Posed, &Encoder)| {
         (0..posed.views.len()).all(|index| posed.geometry.encodes(index, encoder))
     };
-    let is_at_once = is_only_filtered(job) && is_integer && posed.zip(encoder).is_some_and(is_encoded);
+    let is_at_once = is_only_filtered(job) && posed.zip(encoder.as_ref()).is_some_and(is_encoded);
     if is_at_once { job.frame_needs_of_codes() } else { job.frame_needs() }
 }
 

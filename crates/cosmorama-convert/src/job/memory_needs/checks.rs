@@ -4,7 +4,7 @@ use cosmorama_io::Header;
 
 use super::{
     FrameNeeds, Held, Strips, are_too_large, is_large, pixels_in, pixels_of, program_bytes, solid_angle_bytes, sum,
-    table_bytes, with_reserve,
+    table_bytes, with_reserve, without_reserve,
 };
 use crate::colour::{LayerPlan, Light};
 use crate::diagnostic::{CHANNELS, EVERY, Result, SHUTTER};
@@ -41,7 +41,7 @@ impl MemoryBudget {
         self.allow(
             pixels.saturating_mul(least),
             "the output alone",
-            &size_of(target.files.first().map(|file| file.sheet.size)),
+            &largest_has(target.files.iter().map(|file| file.sheet.size).max_by_key(|size| area(*size))),
         )
     }
 
@@ -49,7 +49,7 @@ impl MemoryBudget {
     pub(crate) fn check_sizes(self, sizes: impl IntoIterator<Item = (usize, usize)>) -> Result<()> {
         let sizes: Vec<(usize, usize)> = sizes.into_iter().collect();
         let largest = sizes.iter().max_by_key(|size| area(**size));
-        let why = size_of(largest.copied());
+        let why = largest_has(largest.copied());
         let sizes = sizes.into_iter();
         // They may be made by strips.
         let pixels = if are_too_large(sizes.clone()) { Strips::of(sizes).first } else { pixels_in(sizes) };
@@ -76,8 +76,9 @@ impl MemoryBudget {
     /// # Errors
     /// When they do not.
     pub fn check_things(self, bytes: u64, threads: usize) -> Result<u64> {
-        self.allow(with_program(bytes, bytes), "the picture", "; its world and its size decide")?;
-        Ok(bytes.saturating_add(program_bytes(threads, bytes)))
+        let all = bytes.saturating_add(program_bytes(threads, bytes));
+        self.allow(if all < SMALL { bytes } else { all }, "the picture", "; its world and its size decide")?;
+        Ok(all)
     }
 
     /// Returns the budget that is left beside a frame.
@@ -128,10 +129,10 @@ impl MemoryBudget {
         self.beside_program(threads).saturating_sub(sum([needs.shared, needs.in_sequence().all]))
     }
 
-    /// Returns the memory left beside the program itself. A single frame may use less than is counted here, so it is
+    /// Returns the memory left for pictures beside the program itself. A single frame may use less than is counted here, so it is
     /// not limited by it.
     fn beside_program(self, threads: usize) -> u64 {
-        self.bytes.saturating_sub(program_bytes(threads, self.bytes))
+        without_reserve(self.bytes.saturating_sub(program_bytes(threads, self.bytes)))
     }
 
     /// Returns how many of all frames, of so many files each, may be in flight around the one that is filtered, beside the geometry that
@@ -161,8 +162,9 @@ fn with_program(pictures: u64, made: u64) -> u64 {
     if all < SMALL { pictures } else { all }
 }
 
-fn size_of(output: Option<(usize, usize)>) -> String {
-    output.map_or_else(String::new, |(width, height)| format!("; it has {width}x{height} pixels"))
+/// Says how large the largest picture is.
+fn largest_has(size: Option<(usize, usize)>) -> String {
+    size.map_or_else(String::new, |(width, height)| format!("; its largest picture has {width}x{height} pixels"))
 }
 
 fn describe(target: &Target, link: &str) -> String {

@@ -100,6 +100,8 @@ pub(crate) struct FrameNeeds {
     looked_at: u64,
     /// Samples of the pictures.
     encoded: u64,
+    /// Bytes that encoders hold beside the samples of the pictures that they write.
+    written: u64,
     /// Whether the pictures are made strip by strip.
     is_by_strips: bool,
 }
@@ -152,6 +154,7 @@ impl FrameNeeds {
             masks: 0,
             looked_at: looked_at_bytes(input),
             encoded: pixels.saturating_mul(held.encoded),
+            written: 0,
             is_by_strips: false,
         };
         needs.beside_tables(input.views().map(|view| &view.nominal))
@@ -179,14 +182,29 @@ impl FrameNeeds {
         Self { prepared: self.prepared.saturating_add(bytes), ..self }
     }
 
+    /// Adds what encoders of a format hold beside samples: OpenEXR sorts them by channel, and a JPEG is encoded as a whole.
+    pub(crate) fn with_encoders_of(self, format: Format) -> Self {
+        let written = match format {
+            Format::Exr => self.samples_of_pictures(),
+            Format::Jpeg => self.samples_of_pictures() / 2,
+            _ => 0,
+        };
+        Self { written, ..self }
+    }
+
+    /// Returns the bytes of the samples of the pictures: integers are samples themselves.
+    fn samples_of_pictures(self) -> u64 {
+        if self.encoded > 0 { self.encoded } else { self.pictures }
+    }
+
     /// Adds pictures that streams hold beside those of frames.
     pub(crate) fn beside_streams(self, bytes: u64) -> Self {
         Self { shared: self.shared.saturating_add(bytes), ..self }
     }
 
-    /// Leaves out what is held of the input's pictures: maps of places need none of their light.
-    fn without_light(self) -> Self {
-        Self { samples: Samples::default(), light: 0, prepared: 0, footprints: 0, looked_at: 0, ..self }
+    /// Leaves out what is held of the input's pictures, of which maps of places need no light, but for those that were looked at.
+    fn without_light(self, looked_at: u64) -> Self {
+        Self { samples: Samples::default(), light: 0, prepared: 0, footprints: 0, looked_at, ..self }
     }
 
     /// Returns the needs of one frame of many.
@@ -216,6 +234,7 @@ impl FrameNeeds {
             pictures: most.saturating_sub(light),
             piece: light.saturating_add(of(self.pictures, strips.first).min(self.piece)),
             encoded: 0,
+            written: 0,
             masks: if self.masks == 0 { 0 } else { strips.first.saturating_mul(2 * MASK) },
             is_by_strips: true,
             ..self
@@ -248,9 +267,8 @@ impl FrameNeeds {
     /// is made. Of those that are written there are samples alone.
     fn in_sequence(self) -> FrameMemory {
         let Samples { all, moving, scratch, .. } = self.samples;
-        let made = self.pictures.saturating_add(self.encoded);
-        // Integers are samples themselves.
-        let written = if self.encoded > 0 { self.encoded } else { self.pictures };
+        let made = sum([self.pictures, self.encoded, self.written]);
+        let written = self.samples_of_pictures().saturating_add(self.written);
         let filtered = sum([self.prepared, self.piece, self.footprints, self.masks]);
         let once = sum([scratch, self.light, filtered.max(self.looked_at)]);
         FrameMemory { all: sum([all, once, made]), read: moving, written }
@@ -320,10 +338,10 @@ impl ConvertJob {
         let is_one = self.input.frames.len() <= 1 && !self.outputs.are_many();
         let needs = if is_one { needs } else { needs.of_many() };
         let views = self.target.views.iter().map(|target| &target.view);
-        let needs = needs.with_footprints(self.footprints);
+        let needs = needs.with_footprints(self.footprints).with_encoders_of(self.target.format);
         let needs = if self.has_masks() { needs.with_masks(views.map(size_of_view)) } else { needs };
         let needs = if self.is_by_strips() { needs.by_strips_of(&self.target) } else { needs };
-        if self.content == Content::StMap { needs.without_light() } else { needs }
+        if self.content == Content::StMap { needs.without_light(self.decoded.looked_at()) } else { needs }
     }
 
     /// Returns the bytes of the weights of the texels under its largest pixels, in a few of its shots.
@@ -442,6 +460,11 @@ pub(crate) fn program_bytes(threads: usize, made: u64) -> u64 {
 /// Adds what the allocator keeps beside pictures to their bytes.
 pub(crate) fn with_reserve(pictures: u64) -> u64 {
     pictures.saturating_add(pictures / RESERVE)
+}
+
+/// Returns how many bytes of pictures, with what the allocator keeps beside them, fit into so many.
+fn without_reserve(bytes: u64) -> u64 {
+    bytes - bytes.div_ceil(RESERVE + 1)
 }
 
 fn sum<const N: usize>(bytes: [u64; N]) -> u64 {

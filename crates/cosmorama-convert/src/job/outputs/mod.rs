@@ -1,4 +1,5 @@
 mod places;
+pub(crate) mod turn;
 
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
@@ -303,16 +304,27 @@ fn check_order(args: &Conversion, input: &Input) -> Result<()> {
     Ok(())
 }
 
+/// Returns the patterns of frames' names.
+fn patterns(target: &Target) -> impl Iterator<Item = &FramePattern> {
+    target.files.iter().filter_map(|file| match &file.files {
+        ViewFiles::Sequence(pattern) => Some(pattern),
+        _ => None,
+    })
+}
+
 /// Returns the files that exist and have the name of any frame.
 fn numbered(target: &Target) -> Vec<PathBuf> {
-    let pattern =
-        |file: &TargetFile| if let ViewFiles::Sequence(pattern) = &file.files { Some(pattern.clone()) } else { None };
-    let existing = |pattern: FramePattern| {
+    let existing = |pattern: &FramePattern| {
         // A folder that cannot be read has none; writing into it tells what is wrong.
         let frames = pattern.existing().unwrap_or_default();
-        frames.into_iter().map(move |frame| pattern.path(frame))
+        frames.into_iter().map(|frame| pattern.path(frame)).collect::<Vec<_>>()
     };
-    target.files.iter().filter_map(pattern).flat_map(existing).collect()
+    patterns(target).flat_map(existing).collect()
+}
+
+/// Returns the numbers of frames whose first file exists.
+fn numbered_frames(target: &Target) -> impl Iterator<Item = u64> {
+    patterns(target).next().into_iter().flat_map(|pattern| pattern.existing().unwrap_or_default())
 }
 
 /// Refuses to go on with a video.

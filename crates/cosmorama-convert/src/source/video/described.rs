@@ -1,6 +1,6 @@
 //! Statements of a video about itself, in the words of pictures and SPECs.
 
-use cosmorama::camera::{CameraModel, Mirror};
+use cosmorama::camera::{CameraModel, Canvas, Mirror};
 use cosmorama::layout::Arrangement;
 use cosmorama::raster::{Channels, Depth, Transfer};
 use cosmorama_io::{Format, Header, Metadata};
@@ -40,7 +40,7 @@ pub(super) fn metadata(info: &VideoInfo) -> Metadata {
     Metadata {
         transfer: info.colour.known_transfer().or(untagged),
         primaries: info.colour.known_primaries(),
-        complaints: info.spatial.as_ref().and_then(not_followed).into_iter().collect(),
+        complaints: info.spatial.as_ref().and_then(|tags| not_followed(tags, info.size())).into_iter().collect(),
         notes: info.notes.clone(),
         ..Metadata::default()
     }
@@ -117,7 +117,7 @@ fn spherical(tags: &SpatialTags) -> String {
 }
 
 /// Returns the complaint about spherical tags that are not followed.
-fn not_followed(tags: &SpatialTags) -> Option<String> {
+fn not_followed(tags: &SpatialTags, size: (usize, usize)) -> Option<String> {
     if tags.pose != SphericalPose::default() {
         let degrees = |part: i32| f64::from(part) / 65536.0;
         let SphericalPose { yaw, pitch, roll } = tags.pose;
@@ -129,8 +129,8 @@ fn not_followed(tags: &SpatialTags) -> Option<String> {
             degrees(roll)
         ));
     }
-    (tags.projection.is_some() && text_of(tags, (2, 1)).is_none()).then(|| {
-        "its spherical tags name a projection that is not read: a mesh, padded faces, or a part beside the middle"
+    (tags.projection.is_some() && text_of(tags, size).is_none()).then(|| {
+        "its spherical tags name a projection that is not read: a mesh, padded faces, or a part that is no window of whole pixels"
             .to_owned()
     })
 }
@@ -155,6 +155,7 @@ const WHOLE: f64 = 4_294_967_296.0;
 /// Returns the SPEC of spherical tags for frames of this size.
 fn text_of(tags: &SpatialTags, size: (usize, usize)) -> Option<String> {
     match tags.projection? {
+        SphericalProjection::Equirect(bounds) if middle_part(bounds).is_none() => window(bounds, tags.stereo, size),
         SphericalProjection::Equirect(bounds) => {
             let [horizontal, vertical] = middle_part(bounds)?;
             let (hfov, vfov) = (360.0 * horizontal, 180.0 * vertical);
@@ -175,6 +176,24 @@ fn text_of(tags: &SpatialTags, size: (usize, usize)) -> Option<String> {
         SphericalProjection::Cubemap { .. } | SphericalProjection::Mesh => None,
     }
 }
+
+/// Returns the SPEC of a part of a panorama beside its middle, as a window of the whole; `None` if that has no whole pixels.
+fn window(bounds: Bounds, stereo: Option<StereoMode>, (width, height): (usize, usize)) -> Option<String> {
+    let Bounds { top, bottom, left, right } = bounds;
+    let of = |before: u32, behind: u32, count: usize| {
+        let [before, behind] = [before, behind].map(|cut| f64::from(cut) / WHOLE);
+        let all = count as f64 / (1.0 - before - behind);
+        let [whole, first] = [all, before * all].map(f64::round);
+        let is_whole = (whole - all).abs() < 0.01 && (first - before * all).abs() < 0.01;
+        (before + behind < 1.0 && is_whole && whole <= MOST_COLUMNS).then_some((whole as usize, first as usize))
+    };
+    let ((columns, x), (rows, y)) = (of(left, right, width)?, of(top, bottom, height)?);
+    (!matches!(stereo, Some(StereoMode::TopBottom | StereoMode::LeftRight)))
+        .then(|| format!("equirect:canvas={columns}x{rows}+{x}+{y}"))
+}
+
+/// Greatest width of a panorama of which a video is a part.
+const MOST_COLUMNS: f64 = 1_000_000.0;
 
 /// Returns the parts of the circle that bounds leave, if that is in the middle.
 fn middle_part(bounds: Bounds) -> Option<[f64; 2]> {
@@ -197,12 +216,12 @@ fn stereo_of(mode: Option<StereoMode>, (width, height): (usize, usize), aspect: 
     }
 }
 
-/// Returns the spherical tags of a video whose pictures have a projection; `None` where there are none for it.
-pub(super) fn tags(to: Option<&Spec>) -> Option<SpatialTags> {
+/// Returns the spherical tags of a video whose pictures of this size have a projection; `None` where there are none for it.
+pub(super) fn tags(to: Option<&Spec>, size: (usize, usize)) -> Option<SpatialTags> {
     let spec = to?;
     let Shape::Single(single) = &spec.shape else { return None };
     let CameraModel::Equirect(frame) = &single.placement.frame else { return None };
-    if single.placement.mirror != Mirror::default() || single.placement.canvas.is_some() {
+    if single.placement.mirror != Mirror::default() {
         return None;
     }
     let stereo = match spec.stereo.map(|stereo| (stereo.packing.is_swapped, stereo.packing.arrangement)) {
@@ -211,9 +230,22 @@ pub(super) fn tags(to: Option<&Spec>) -> Option<SpatialTags> {
         Some((false, Arrangement::SideBySide)) => StereoMode::LeftRight,
         Some((true, _)) => return None,
     };
-    let cut = |part: f64| ((1.0 - part) / 2.0 * WHOLE).round() as u32;
-    let (left, top) = (cut(frame.horizontal.degrees() / 360.0), cut(frame.vertical.degrees() / 180.0));
-    let bounds = Bounds { top, bottom: top, left, right: left };
+    let parts = [frame.horizontal.degrees() / 360.0, frame.vertical.degrees() / 180.0];
+    let [[left, right], [top, bottom]] = match single.placement.canvas {
+        None => parts.map(|part| [(1.0 - part) / 2.0; 2]),
+        // Of two eyes, each is a window.
+        Some(_) if stereo != StereoMode::Mono => return None,
+        Some(Canvas { width, height, left, top }) => {
+            let of = |part: f64, (first, count, all): (i64, usize, usize)| {
+                let pixel = part / all as f64;
+                let before = (1.0 - part) / 2.0 + pixel * first as f64;
+                [before, 1.0 - before - pixel * count as f64]
+            };
+            [of(parts[0], (left, size.0, width)), of(parts[1], (top, size.1, height))]
+        }
+    };
+    let cut = |part: f64| (0.0..1.0).contains(&part).then(|| (part * WHOLE).round() as u32);
+    let bounds = Bounds { top: cut(top)?, bottom: cut(bottom)?, left: cut(left)?, right: cut(right)? };
     Some(SpatialTags {
         stereo: Some(stereo),
         projection: Some(SphericalProjection::Equirect(bounds)),
@@ -226,7 +258,7 @@ mod tests {
     use super::*;
 
     fn tags_of(spec: &str) -> Option<SpatialTags> {
-        tags(Some(&spec.parse().unwrap()))
+        tags(Some(&spec.parse().unwrap()), (256, 128))
     }
 
     #[test]
@@ -238,6 +270,8 @@ mod tests {
             ("equirect:stereo=sbs-half", (4096, 2048)),
             ("equirect:hfov=180,stereo=sbs", (4096, 2048)),
             ("equirect:hfov=180,vfov=90", (1000, 500)),
+            ("equirect:canvas=512x256+160+31", (256, 128)),
+            ("equirect:canvas=300x150+0+22", (256, 128)),
         ] {
             let text = text_of(&tags_of(spec).unwrap(), size).unwrap();
             assert_eq!(text.parse::<Spec>().unwrap().to_string(), spec.parse::<Spec>().unwrap().to_string(), "{text}");
@@ -248,22 +282,29 @@ mod tests {
 
     #[test]
     fn nothing_is_said_of_pictures_that_players_would_show_wrongly() {
-        for spec in ["fulldome", "perspective:fov=90", "equirect:flip=x", "equirect:stereo=sbs,swap=yes", "mercator"] {
+        for spec in [
+            "fulldome",
+            "perspective:fov=90",
+            "equirect:flip=x",
+            "equirect:stereo=sbs,swap=yes",
+            "mercator",
+            "equirect:canvas=300x150+-8+0",
+        ] {
             assert_eq!(tags_of(spec), None, "{spec}");
         }
-        assert_eq!(tags(None), None);
+        assert_eq!(tags(None, (2, 1)), None);
     }
 
     #[test]
     fn tags_that_are_not_followed_are_told() {
         let panorama = SpatialTags::panorama(StereoMode::Mono);
-        assert_eq!(not_followed(&panorama), None);
+        assert_eq!(not_followed(&panorama, (2, 1)), None);
         let turned = SpatialTags { pose: SphericalPose { yaw: 90 * 65536, ..SphericalPose::default() }, ..panorama };
-        assert!(not_followed(&turned).unwrap().contains("yaw 90, pitch 0"));
+        assert!(not_followed(&turned, (2, 1)).unwrap().contains("yaw 90, pitch 0"));
         let mesh = SpatialTags { projection: Some(SphericalProjection::Mesh), ..panorama };
-        assert!(not_followed(&mesh).unwrap().contains("not read"));
-        let aside = Bounds { left: 1 << 30, ..Bounds::default() };
+        assert!(not_followed(&mesh, (2, 1)).unwrap().contains("not read"));
+        let aside = Bounds { left: 1 << 29, ..Bounds::default() };
         let aside = SpatialTags { projection: Some(SphericalProjection::Equirect(aside)), ..panorama };
-        assert!(not_followed(&aside).is_some() && text_of(&aside, (3, 2)).is_none());
+        assert!(not_followed(&aside, (3, 2)).is_some() && text_of(&aside, (3, 2)).is_none());
     }
 }

@@ -115,7 +115,12 @@ impl MadeVideos {
         let frames = plan.source.as_ref().map(|source| &source.frames[..]);
         let source =
             info.as_ref().zip(frames).map(|(info, frames)| Shown { info, frames, timeline: timeline.as_ref() });
-        let (times, stamps) = times((rate, plan), source, told);
+        let mut of_rate = Vec::new();
+        let (times, stamps) = times((rate, plan), source, &mut of_rate);
+        // Netpbm's streams name no rate.
+        if outputs.iter().any(|(path, _)| !matches!(RawKind::of(path), Some(RawKind::Pam | RawKind::Pfm))) {
+            told.append(&mut of_rate);
+        }
         let mut all = Vec::new();
         for (path, size) in outputs {
             let state =
@@ -280,7 +285,7 @@ fn settings(plan: &VideoPlan, size: (usize, usize)) -> Result<WriteSettings> {
         depth: plan.depth,
         has_alpha: plan.channels.has_alpha(),
         colour: ColourTags::of(&plan.primaries, &plan.transfer),
-        spatial: described::tags(plan.to.as_ref()),
+        spatial: described::tags(plan.to.as_ref(), size),
         codec: codec(plan)?,
         arguments: plan.settings.arguments.clone(),
         frames: plan.frames.filter(|_| plan.settings.damaged != DamagedFrames::Skip),

@@ -7,7 +7,7 @@ use crate::sphere::{Angle, Direction};
 /// Around the point behind a lens, or beside a horizon, even a small cap spreads over the whole plane of the image.
 /// Caps outside the cone need not be searched for in the image.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SeenCone {
+pub(crate) struct SeenCone {
     middle: Direction,
     half: Angle,
 }
@@ -17,7 +17,7 @@ const STEPS: usize = 48;
 
 impl SeenCone {
     /// Computes the cone of a view; `None` where the view may span the whole world.
-    pub fn of(view: &View) -> Option<Self> {
+    pub(crate) fn of(view: &View) -> Option<Self> {
         match view.stop.circle {
             Some(radius) => Self::of_circle(view, radius),
             None => Self::of_image(view),
@@ -53,13 +53,12 @@ impl SeenCone {
     }
 
     /// Returns the cone of another view that [is alike](View::is_alike) a view with this cone.
-    #[must_use]
-    pub fn turned(self, from: &View, to: &View) -> Self {
+    pub(crate) fn turned(self, from: &View, to: &View) -> Self {
         Self { middle: to.orientation.to_world(from.orientation.to_view(self.middle)), ..self }
     }
 
     /// Returns the middle.
-    pub fn middle(&self) -> Direction {
+    pub(crate) fn middle(&self) -> Direction {
         self.middle
     }
 
@@ -74,13 +73,13 @@ impl SeenCone {
     }
 
     /// Returns the angle, in radians, between the middle and the farthest direction that counts as inside: half the cone, and rounding.
-    pub fn reach(&self) -> f64 {
+    pub(crate) fn reach(&self) -> f64 {
         const ROUNDING: f64 = 1e-6;
         self.half.radians() + ROUNDING
     }
 
     /// Returns whether the cone may hold a direction: quickly, and with some that lie beside it.
-    pub fn may_hold(&self, direction: Direction) -> bool {
+    pub(crate) fn may_hold(&self, direction: Direction) -> bool {
         // A chord is shorter than its arc.
         self.middle.vector().distance_squared(direction.vector()) <= self.reach() * self.reach()
     }

@@ -15,7 +15,7 @@ use super::pictures::{Engine, Layer, Making};
 use crate::diagnostic::{ConvertError, Diagnostic, Result, failure};
 use crate::engine::geometry::{bytes_of_passes, partly_anew};
 use crate::engine::{BalancedLight, FrameLight, FrameWords, FurtherFiles, Geometry, LayerPass, Levels, Posed, Shares};
-use crate::job::{ConvertJob, FrameOutputs, STRIP, with_reserve};
+use crate::job::{ConvertJob, FrameOutputs, STRIP};
 use crate::target::{Strip, TargetFile};
 
 /// Geometry of the strips of a job's pictures, which all its frames share: as much of it as fits into memory. Empty where strips are
@@ -62,7 +62,7 @@ impl KeptStrips {
                 let (geometry, warnings) = Geometry::of_strip((job, whole), (&strip, &views, true), bytes, &share)?;
                 all += views.len();
                 if geometry.is_whole() {
-                    bytes += with_reserve(geometry.bytes());
+                    bytes += geometry.bytes();
                     strips.push((strip.rows, Arc::new(geometry)));
                 }
                 told.extend(warnings.into_iter().filter(|warning| !told.contains(warning)).collect::<Vec<_>>());
@@ -90,9 +90,9 @@ impl KeptStrips {
         self.all().map(Geometry::kept).sum()
     }
 
-    /// Returns the bytes that it holds, with what the allocator keeps beside them.
+    /// Returns the bytes that it holds.
     pub(super) fn bytes(&self) -> u64 {
-        self.all().map(|geometry| with_reserve(geometry.bytes())).sum()
+        self.all().map(Geometry::bytes).sum()
     }
 }
 

@@ -40,10 +40,8 @@ pub(super) struct ZonalLight {
     has_negative: bool,
 }
 
-/// Grids that are held while light is gathered, at most: pieces that are merged, and the whole. Pieces of upright panoramas have few rows
-/// in common.
+/// Grids that are held while light is gathered, at most: pieces that are merged, and the whole.
 const GATHERED: usize = 5;
-const GATHERED_BY_RINGS: usize = 2;
 
 /// A lobe with its bands, and the light under it as soon as it is asked for.
 struct WideLobe {
@@ -78,8 +76,9 @@ impl ZonalLight {
         let bands: Vec<usize> = lobes.par_iter().filter_map(Bands::of).map(|bands| bands.highest()).collect();
         let Some(most) = bands.iter().max() else { return 0 };
         let grid = |highest: &usize| 2 * GridSize::of(*highest).rows.pow(2) * size_of::<Channels>();
+        // Pieces of upright panoramas have few rows in common: they are next to nothing.
         let is_by_rings = world.sources().iter().all(|source| source.view.upright_cylinder().is_some());
-        let gathered = if is_by_rings { GATHERED_BY_RINGS } else { GATHERED } * grid(most);
+        let gathered = if is_by_rings { 0 } else { GATHERED * grid(most) };
         let waves = GridSize::of(*most).rows * (most + 1) * size_of::<Parts>();
         let spectrum = (most + 1).pow(2) / 2 * size_of::<Parts>();
         // Waves are made of the whole grid, and then the spectrum of them; later waves and the light under each lobe of the spectrum.
