@@ -131,7 +131,8 @@ impl Seen {
         let seen = Evidence::of_image(&file.image).map_or(Self::Nothing, Self::Evidence);
         let may_be_cube = !layouts.is_empty() && matches!(seen, Self::Nothing | Self::Evidence(Evidence::Twins(_)));
         let borders = if may_be_cube { seams::among(layouts, &light(&file.image)) } else { None };
-        let looked_at = if may_be_cube { light_bytes(header) } else { read_bytes(header) };
+        // Beside its samples, the file itself, and coarse copies.
+        let looked_at = if may_be_cube { light_bytes(header) } else { 2 * read_bytes(header) };
         held.put(path, file, looked_at);
         (seen, borders)
     }

@@ -6,7 +6,7 @@ use cosmorama_io::Header;
 use cosmorama_spec::MemorySize;
 
 use crate::diagnostic::{MEMORY, Result, bail};
-use crate::source::system_memory::{all_bytes, free_bytes};
+use crate::source::system_memory::{addresses_left, all_bytes, free_bytes};
 
 /// Limit of the memory that a conversion may use.
 #[derive(Clone, Copy, Debug)]
@@ -15,6 +15,8 @@ pub struct MemoryBudget {
     pub bytes: u64,
     /// Requested amount, if it exceeds the machine's memory.
     too_much: Option<u64>,
+    /// Whether it is what `ulimit -v` leaves: a program that needs a little more is aborted.
+    pub(crate) is_of_addresses: bool,
 }
 
 /// Default share of free memory.
@@ -33,7 +35,8 @@ impl MemoryBudget {
             None => part(DEFAULT_PART),
         };
         let all = all_bytes().unwrap_or(u64::MAX);
-        Self { bytes: wanted.min(all), too_much: (wanted > all).then_some(wanted) }
+        let is_of_addresses = asked.is_none() && addresses_left().is_some_and(|left| part(DEFAULT_PART) >= left / 2);
+        Self { bytes: wanted.min(all), too_much: (wanted > all).then_some(wanted), is_of_addresses }
     }
 
     /// Checks that a mask of this size fits while it is made from a picture of so many bytes per pixel.

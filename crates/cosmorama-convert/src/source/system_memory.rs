@@ -117,7 +117,7 @@ impl Group {
 }
 
 /// Returns the bytes that may still be mapped by the limit of `ulimit -v`, in which the program itself has a part.
-fn addresses_left() -> Option<u64> {
+pub(crate) fn addresses_left() -> Option<u64> {
     let held = kilobytes("/proc/self/status", "VmSize:").unwrap_or(0);
     Some(address_space()?.saturating_sub(held))
 }

@@ -196,7 +196,7 @@ fn explain_is_told_that_its_picture_is_too_large_before_memory_is_taken() {
     assert_says(&explain(2, "cylinder:vfov=90,hfov=1e-300", "8"), &["--size 8", "more than 1000000 pixels high"]);
     assert_says(
         &explain(1, "equirect", "1000000x500000"),
-        &["the output alone", "it has 1000000x500000 pixels", "--memory"],
+        &["the output alone", "its largest picture has 1000000x500000 pixels", "--memory"],
     );
 }
 

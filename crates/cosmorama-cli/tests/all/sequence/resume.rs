@@ -124,7 +124,7 @@ fn frames_by_other_settings_or_of_other_inputs_are_no_part_of_it() {
         file[digit] = if file[digit] == b'0' { b'1' } else { b'0' };
         std::fs::write(&path, file).unwrap();
         let verified = bench.run(&["verify", &out, "--frames", "1-3"]);
-        assert_says(&text(&verified.stdout), &["damaged", &format!("out_2.{end}")]);
+        assert_says(&text(&verified.stdout), &["damaged", ": 2\n"]);
         let report: Value = serde_json::from_str(&bench.succeed(&[&resume[..], &["--json"]].concat())).unwrap();
         assert_eq!((&report["frames"], &report["skipped"]), (&1.into(), &2.into()), "{end}: {report}");
     }
@@ -334,7 +334,7 @@ fn some_frames_of_a_turn_alone_are_another_turn() {
     bench.succeed(&turn);
     let expected = bench.bytes("out_3.png");
     let told = text(&bench.run(&[&turn[..], &["--frames", "4,3", "-y"]].concat()).stderr);
-    assert_says(&told, &["out_1.png and 2 more exist", "--frames 3-4", "--resume", "--path"]);
+    assert_says(&told, &["out_1.png and 2 more exist", "--frames 3,4", "--resume", "--path"]);
     let told = bench.fail(1, &[&turn[..], &["--resume"]].concat());
     assert_says(&told, &["out_3.png was made with other poses", "remove frame", "would be another turn"]);
     for name in ["out_3.png", "out_4.png"] {

@@ -84,7 +84,7 @@ pub(super) fn faults(frames: &[Frame], size: Option<Size>) -> Vec<Faults> {
 
 /// Settings by which most frames were made.
 struct UsualSettings<'a> {
-    /// Those that most frames tell of all that tell any.
+    /// Settings that the most frames tell, if any do.
     usual: Option<&'a str>,
     /// Whether most frames tell theirs: one that does not was made otherwise, or its words are damaged.
     are_told: bool,

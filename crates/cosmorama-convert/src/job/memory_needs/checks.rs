@@ -68,7 +68,19 @@ impl MemoryBudget {
             )
         });
         let link = if largest.is_empty() { "; " } else { ", and " };
-        self.allow(with_program(needs.peak(), needs.made()), "a frame", &(largest + &describe(target, link)))
+        self.allow(self.with_program(needs), "a frame", &(largest + &describe(target, link)))
+    }
+
+    /// Returns the bytes of a frame and of the program, unless both are few. Of addresses there is no room beside: half of the program
+    /// has its own already.
+    fn with_program(self, needs: FrameNeeds) -> u64 {
+        let program = program_bytes(rayon::current_num_threads(), needs.made());
+        let all = with_reserve(needs.peak()).saturating_add(program);
+        match self.is_of_addresses {
+            _ if all >= SMALL => all,
+            true => all - program / 2,
+            false => needs.peak(),
+        }
     }
 
     /// Checks that things under a world fit, which need so many bytes beside the program. Returns the bytes of all.
@@ -89,19 +101,19 @@ impl MemoryBudget {
     /// Checks that a frame fits together with what a filter or light prepares of the input, which frames do one after the other.
     pub(crate) fn check_prepared(self, needs: FrameNeeds) -> Result<()> {
         let why = format!("; what is prepared of the input is {} of it", human(needs.prepared));
-        self.allow(with_program(needs.peak(), needs.made()), "a frame", &why)
+        self.allow(self.with_program(needs), "a frame", &why)
     }
 
     /// Checks that a frame fits together with the sum of the pictures under a shutter, of so many bytes.
     pub(crate) fn check_sum(self, needs: FrameNeeds, sum: u64) -> Result<()> {
         let why = format!("; the sum of its moments, for {SHUTTER}, is {} of it", human(sum));
-        self.allow(with_program(needs.peak(), needs.made()), "a frame", &why)
+        self.allow(self.with_program(needs), "a frame", &why)
     }
 
     /// Checks that a frame fits together with copies of the maps, between which others are interpolated.
     pub(crate) fn check_maps(self, needs: FrameNeeds, maps: u64) -> Result<()> {
         let why = format!("; the maps between two that are computed, for {EVERY}, are {} of it", human(maps));
-        self.allow(with_program(needs.peak(), needs.made()), "a frame", &why)
+        self.allow(self.with_program(needs), "a frame", &why)
     }
 
     /// Chooses how many further channels are read at once, of so many texels, and returns the budget that is left beside all of them,
@@ -155,12 +167,6 @@ impl MemoryBudget {
 /// Memory from which budgets hold for the program and all its threads, too. Smaller ones hold for pictures: nobody means that the program
 /// itself is too large.
 const SMALL: u64 = 64 << 20;
-
-/// Adds the program to the bytes of pictures, of which so many are made, unless both are few.
-fn with_program(pictures: u64, made: u64) -> u64 {
-    let all = with_reserve(pictures).saturating_add(program_bytes(rayon::current_num_threads(), made));
-    if all < SMALL { pictures } else { all }
-}
 
 /// Says how large the largest picture is.
 fn largest_has(size: Option<(usize, usize)>) -> String {

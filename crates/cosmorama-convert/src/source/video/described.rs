@@ -192,6 +192,9 @@ fn window(bounds: Bounds, stereo: Option<StereoMode>, (width, height): (usize, u
         .then(|| format!("equirect:canvas={columns}x{rows}+{x}+{y}"))
 }
 
+/// Part of a circle that rounding may be off by.
+const ROUNDED: f64 = 1e-9;
+
 /// Greatest width of a panorama of which a video is a part.
 const MOST_COLUMNS: f64 = 1_000_000.0;
 
@@ -244,7 +247,7 @@ pub(super) fn tags(to: Option<&Spec>, size: (usize, usize)) -> Option<SpatialTag
             [of(parts[0], (left, size.0, width)), of(parts[1], (top, size.1, height))]
         }
     };
-    let cut = |part: f64| (0.0..1.0).contains(&part).then(|| (part * WHOLE).round() as u32);
+    let cut = |part: f64| (-ROUNDED..1.0).contains(&part).then(|| (part.max(0.0) * WHOLE).round() as u32);
     let bounds = Bounds { top: cut(top)?, bottom: cut(bottom)?, left: cut(left)?, right: cut(right)? };
     Some(SpatialTags {
         stereo: Some(stereo),
