@@ -71,14 +71,14 @@ impl MemoryBudget {
         self.allow(self.with_program(needs), "a frame", &(largest + &describe(target, link)))
     }
 
-    /// Returns the bytes of a frame and of the program, unless both are few. Of addresses there is no room beside: half of the program
-    /// has its own already.
+    /// Returns the bytes of a frame and of the program, unless both are few. Of addresses there is no room beside: a third of the
+    /// program has its own already.
     fn with_program(self, needs: FrameNeeds) -> u64 {
         let program = program_bytes(rayon::current_num_threads(), needs.made());
         let all = with_reserve(needs.peak()).saturating_add(program);
         match self.is_of_addresses {
             _ if all >= SMALL => all,
-            true => all - program / 2,
+            true => all - program / 3,
             false => needs.peak(),
         }
     }
