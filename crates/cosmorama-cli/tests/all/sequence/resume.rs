@@ -340,7 +340,9 @@ fn some_frames_of_a_turn_alone_are_another_turn() {
     for name in ["out_3.png", "out_4.png"] {
         std::fs::remove_file(bench.path(name)).unwrap();
     }
-    assert!(!bench.succeed(&[&turn[..], &["--resume"]].concat()).contains("no part of this turn"));
+    let resumed = bench.run(&[&turn[..], &["--resume"]].concat());
+    let told = text(&resumed.stderr);
+    assert!(resumed.status.success() && !told.contains("no part of this turn"), "{told}");
     assert!(bench.bytes("out_3.png") == expected);
     // Of a path, frames have their own poses; one of another tilt is found.
     std::fs::write(bench.path("path.csv"), "frame,yaw,pitch,roll\n1,0,0,0\n5,60,0,0\n").unwrap();
