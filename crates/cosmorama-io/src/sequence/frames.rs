@@ -80,7 +80,7 @@ fn no_frames(pattern: &FramePattern) -> IoError {
     }
 }
 
-/// Returns the missing frames between the first and the last; at most the first million.
+/// Returns the missing frames between the first and the last.
 fn holes(existing: &BTreeSet<u64>, first: u64, last: u64) -> FrameList {
     FrameList::new((first..=last).filter(|frame| !existing.contains(frame)))
 }
