@@ -170,11 +170,9 @@ impl FrameNeeds {
         Self { footprints: bytes, ..self }
     }
 
-    /// Adds masks of views of these sizes, and the copy of one while it is made.
+    /// Adds masks of views of these sizes, whose every pixel may be another.
     pub(crate) fn with_masks(self, views: impl Iterator<Item = (usize, usize)>) -> Self {
-        let pixels: Vec<u64> = views.map(area).collect();
-        let all = sum([pixels.iter().copied().fold(0, u64::saturating_add), pixels.iter().copied().max().unwrap_or(0)]);
-        Self { masks: all.saturating_mul(MASK), ..self }
+        Self { masks: pixels_in(views).saturating_mul(MASK), ..self }
     }
 
     /// Adds what is made of the input before pictures are, or copies of pictures.
@@ -235,7 +233,7 @@ impl FrameNeeds {
             piece: light.saturating_add(of(self.pictures, strips.first).min(self.piece)),
             encoded: 0,
             written: 0,
-            masks: if self.masks == 0 { 0 } else { strips.first.saturating_mul(2 * MASK) },
+            masks: if self.masks == 0 { 0 } else { strips.first.saturating_mul(MASK) },
             is_by_strips: true,
             ..self
         }
@@ -352,10 +350,12 @@ impl ConvertJob {
         footprint_bytes(self.filter.kind, &self.input, views)
     }
 
-    /// Returns whether masks of its views are made: of what no view of the input covers, or of what lies outside the field of view.
+    /// Returns whether masks of its views take memory: those of what no view of the input covers do where it ends in most pixels, as it may
+    /// by masks of its own, or between many views. Others take next to none.
     fn has_masks(&self) -> bool {
-        let is_surrounded = self.light.channels.has_alpha() && self.light.background != Rgba::TRANSPARENT;
-        self.lighting.is_none() && self.content == Content::World && (!self.is_complete() || is_surrounded)
+        const MANY: usize = 100;
+        let is_torn = self.input.views().nth(MANY).is_some() || self.input.views().any(|view| view.mask.is_some());
+        is_torn && self.lighting.is_none() && self.content == Content::World && !self.is_complete()
     }
 
     /// Returns the bytes that the filter keeps beside the light of a world, for that view, or that part of one, for which they are most.
@@ -446,8 +446,8 @@ fn pixels_in(sizes: impl Iterator<Item = (usize, usize)>) -> u64 {
 /// Rows of a strip.
 pub(crate) const STRIP: usize = 512;
 
-/// Bytes of a pixel of a mask.
-const MASK: u64 = 8;
+/// Bytes of a pixel of a mask that differs from its neighbours.
+const MASK: u64 = 12;
 
 /// Bytes of blocks and copies that a decoder holds, at most.
 const MOST_SCRATCH: u64 = 72 << 20;

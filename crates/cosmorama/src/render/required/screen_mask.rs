@@ -1,3 +1,5 @@
+use std::iter::repeat_n;
+
 use rayon::prelude::*;
 
 use crate::camera::{PixelPoint, View};
@@ -8,7 +10,18 @@ use crate::world::World;
 /// views of the world cover.
 #[derive(Clone, Debug)]
 pub struct ScreenMask {
-    pixels: Vec<MaskPixel>,
+    rows: Vec<Row>,
+}
+
+/// Row of a mask, as runs of equal pixels: but for a few edges, pixels lie inside or outside as a whole.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Row(Vec<Run>);
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Run {
+    pixel: MaskPixel,
+    /// Column behind the last one.
+    end: u32,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -22,29 +35,35 @@ struct MaskPixel {
 /// Sub-samples per side that measure a pixel in which the world ends.
 const SUB_SAMPLES: usize = 16;
 
+/// Rows of a mask that a thread makes from the centres of their pixels.
+const BAND_ROWS: usize = 32;
+
 impl ScreenMask {
     /// Makes the mask of a target in a world.
     pub fn new(world: &World, target: &View) -> Self {
-        let width = target.width();
-        let mut centres = vec![MaskPixel::default(); width * target.height()];
-        centres.par_chunks_mut(width.max(1)).enumerate().for_each(|(j, row)| {
-            for (i, pixel) in row.iter_mut().enumerate() {
-                let Some(screen) = target.screen_pixel(i, j) else { continue };
-                let is_seen = world.owner(screen.footprint.direction).is_some();
-                *pixel = MaskPixel { coverage: screen.coverage as f32, seen: if is_seen { 1.0 } else { 0.0 } };
+        let bands = (0..target.height()).step_by(BAND_ROWS).collect::<Vec<_>>().into_par_iter();
+        Self { rows: bands.flat_map_iter(|first| Self::band(world, target, first)).collect() }
+    }
+
+    /// Makes rows of a mask, from the first of them on.
+    fn band(world: &World, target: &View, first: usize) -> Vec<Row> {
+        let (width, height) = (target.width(), target.height());
+        let above = first.saturating_sub(1);
+        let below = height.min(first + BAND_ROWS + 1);
+        let places = (above..below).flat_map(|j| (0..width).map(move |i| (i, j)));
+        let centres: Vec<MaskPixel> = places.map(|place| MaskPixel::of_centre(world, target, place)).collect();
+        let pixel = |i: usize, j: usize| {
+            let place = (i, j - above);
+            let pixel = centres[place.1 * width + place.0];
+            // Where the world ends in a pixel, the centre of a neighbour lies on the other side.
+            let mut neighbours = around(&centres, width, place).filter(|other| other.coverage > 0.0);
+            if pixel.coverage > 0.0 && neighbours.any(|other| other.seen != pixel.seen) {
+                MaskPixel { seen: seen_part(world, target, (i, j)).unwrap_or(pixel.seen), ..pixel }
+            } else {
+                pixel
             }
-        });
-        // Where the world ends in a pixel, the centre of a neighbour lies on the other side.
-        let mut pixels = centres.clone();
-        pixels.par_chunks_mut(width.max(1)).enumerate().for_each(|(j, row)| {
-            for (i, pixel) in row.iter_mut().enumerate().filter(|(_, pixel)| pixel.coverage > 0.0) {
-                let seen = pixel.seen;
-                if around(&centres, width, (i, j)).any(|other| other.coverage > 0.0 && other.seen != seen) {
-                    pixel.seen = seen_part(world, target, (i, j)).unwrap_or(seen);
-                }
-            }
-        });
-        Self { pixels }
+        };
+        (first..height.min(first + BAND_ROWS)).map(|j| Row::of((0..width).map(|i| pixel(i, j)))).collect()
     }
 
     /// Lays a colour where no view covers the pixels: see [`Self::fill_by`].
@@ -56,15 +75,14 @@ impl ScreenMask {
     /// as it is seen, so that its border is smooth. Those that a filter has left empty, since their centres are outside,
     /// take the mean of their neighbours inside.
     pub fn fill_by(&self, image: &mut Image<Rgba>, light: impl Fn(usize, usize) -> Rgba + Sync) {
-        let is_left = |(pixel, mask): (&Rgba, &MaskPixel)| pixel.alpha() == 0.0 && mask.seen > 0.0 && mask.seen < 0.5;
-        let both = image.pixels().iter().zip(&self.pixels).enumerate();
+        let is_left = |(pixel, mask): (&Rgba, MaskPixel)| pixel.alpha() == 0.0 && mask.seen > 0.0 && mask.seen < 0.5;
+        let pixels = self.rows.iter().flat_map(Row::pixels);
+        let both = image.pixels().iter().zip(pixels).enumerate();
         let left: Vec<usize> = both.filter(|(_, both)| is_left(*both)).map(|(index, _)| index).collect();
         let taken: Vec<Rgba> = left.iter().map(|&index| self.mean_inside(image, index)).collect();
         left.iter().zip(taken).for_each(|(&index, mean)| image.pixels_mut()[index] = mean);
-        let width = image.width().max(1);
-        let rows = image.pixels_mut().par_chunks_mut(width).zip(self.pixels.par_chunks(width)).enumerate();
-        rows.for_each(|(j, (row, masks))| {
-            for (i, (pixel, mask)) in row.iter_mut().zip(masks).enumerate() {
+        rows_of(image).zip(&self.rows).enumerate().for_each(|(j, (row, masks))| {
+            for (i, (pixel, mask)) in row.iter_mut().zip(masks.pixels()).enumerate() {
                 if mask.seen < 1.0 && mask.coverage > 0.0 {
                     *pixel = *pixel * mask.seen + light(i, j) * (mask.coverage * (1.0 - mask.seen));
                 }
@@ -74,13 +92,13 @@ impl ScreenMask {
 
     /// Returns the mean of the pixels around one whose centres the world covers.
     fn mean_inside(&self, image: &Image<Rgba>, index: usize) -> Rgba {
-        let (width, place) = (image.width(), (index % image.width(), index / image.width()));
+        let place = (index % image.width(), index / image.width());
+        let inside =
+            places_around((image.width(), image.height()), place).filter(|&(i, j)| self.rows[j].at(i).seen >= 0.5);
         let (mut sum, mut count) = (Rgba::TRANSPARENT, 0.0);
-        for (pixel, mask) in around(image.pixels(), width, place).zip(around(&self.pixels, width, place)) {
-            if mask.seen >= 0.5 {
-                sum += *pixel;
-                count += 1.0;
-            }
+        for (i, j) in inside {
+            sum += *image.get(i, j);
+            count += 1.0;
         }
         if count > 0.0 { sum * (1.0 / count) } else { sum }
     }
@@ -91,29 +109,91 @@ impl ScreenMask {
     pub fn close_holes(&self, image: &mut Image<Rgba>, fill: Rgba) -> usize {
         // Least part of a pixel that counts. Less is noise, which negative lobes leave beside a hole.
         const ENOUGH: f32 = 0.05;
-        let mut holes = Vec::new();
-        for (index, (pixel, mask)) in image.pixels_mut().iter_mut().zip(&self.pixels).enumerate() {
-            if pixel.alpha() > ENOUGH * mask.coverage {
-                *pixel = *pixel * (mask.coverage / pixel.alpha());
-            } else if mask.coverage > 0.0 && mask.seen >= 0.5 {
-                *pixel = Rgba::TRANSPARENT;
-                holes.push(index);
+        rows_of(image).zip(&self.rows).for_each(|(row, masks)| {
+            for (pixel, mask) in row.iter_mut().zip(masks.pixels()) {
+                if pixel.alpha() > ENOUGH * mask.coverage {
+                    *pixel = *pixel * (mask.coverage / pixel.alpha());
+                } else if mask.is_shown() {
+                    *pixel = Rgba::TRANSPARENT;
+                }
             }
+        });
+        // Means are of what was there before, so that a row is filled when the next one has its own.
+        let (mut empty, mut above) = (0, Vec::new());
+        for j in 0..image.height() {
+            let closed = self.closed(image, j);
+            empty += self.lay(image, (j.saturating_sub(1), &above), fill);
+            above = closed;
         }
-        let closed: Vec<Option<Rgba>> = holes.iter().map(|&index| mean_around(image, index)).collect();
-        for (&index, colour) in holes.iter().zip(&closed) {
-            image.pixels_mut()[index] = colour.unwrap_or(fill) * self.pixels[index].coverage;
+        empty + self.lay(image, (image.height().saturating_sub(1), &above), fill)
+    }
+
+    /// Returns the columns of a row's holes, with the means of their neighbours.
+    fn closed(&self, image: &Image<Rgba>, j: usize) -> Vec<(usize, Option<Rgba>)> {
+        let masks = self.rows[j].pixels().enumerate();
+        let holes = masks.filter(|(i, mask)| mask.is_shown() && image.get(*i, j).alpha() == 0.0);
+        holes.map(|(i, _)| (i, mean_around(image, (i, j)))).collect()
+    }
+
+    /// Lays colours into the holes of a row, and another one where there is none. Returns the number of these.
+    fn lay(&self, image: &mut Image<Rgba>, (j, closed): (usize, &[(usize, Option<Rgba>)]), fill: Rgba) -> usize {
+        let width = image.width();
+        for (i, colour) in closed {
+            image.pixels_mut()[j * width + i] = colour.unwrap_or(fill) * self.rows[j].at(*i).coverage;
         }
-        closed.iter().filter(|colour| colour.is_none()).count()
+        closed.iter().filter(|(_, colour)| colour.is_none()).count()
     }
 
     /// Lays a colour outside the field of view. It also goes behind the pixels that the edge cuts, as far as they lie
     /// outside.
     pub fn surround(&self, image: &mut Image<Rgba>, colour: Rgba) {
-        for (pixel, mask) in image.pixels_mut().iter_mut().zip(&self.pixels) {
-            *pixel += colour * (1.0 - mask.coverage);
-        }
+        rows_of(image).zip(&self.rows).for_each(|(row, masks)| {
+            row.iter_mut().zip(masks.pixels()).for_each(|(pixel, mask)| *pixel += colour * (1.0 - mask.coverage));
+        });
     }
+}
+
+impl Row {
+    fn of(pixels: impl Iterator<Item = MaskPixel>) -> Self {
+        let mut runs: Vec<Run> = Vec::new();
+        for (pixel, end) in pixels.zip(1..) {
+            match runs.last_mut().filter(|run| run.pixel == pixel) {
+                Some(run) => run.end = end,
+                None => runs.push(Run { pixel, end }),
+            }
+        }
+        runs.shrink_to_fit();
+        Self(runs)
+    }
+
+    fn pixels(&self) -> impl Iterator<Item = MaskPixel> {
+        let starts = [0].into_iter().chain(self.0.iter().map(|run| run.end));
+        self.0.iter().zip(starts).flat_map(|(run, start)| repeat_n(run.pixel, (run.end - start) as usize))
+    }
+
+    /// Returns the pixel in a column.
+    fn at(&self, i: usize) -> MaskPixel {
+        self.0[self.0.partition_point(|run| run.end as usize <= i)].pixel
+    }
+}
+
+impl MaskPixel {
+    /// Returns a pixel which the world covers wholly or not at all, as it does its centre.
+    fn of_centre(world: &World, target: &View, (i, j): (usize, usize)) -> Self {
+        let Some(screen) = target.screen_pixel(i, j) else { return Self::default() };
+        let is_seen = world.owner(screen.footprint.direction).is_some();
+        Self { coverage: screen.coverage as f32, seen: if is_seen { 1.0 } else { 0.0 } }
+    }
+
+    /// Returns whether the world is in the field of view here.
+    fn is_shown(self) -> bool {
+        self.coverage > 0.0 && self.seen >= 0.5
+    }
+}
+
+fn rows_of(image: &mut Image<Rgba>) -> impl IndexedParallelIterator<Item = &mut [Rgba]> {
+    let width = image.width().max(1);
+    image.pixels_mut().par_chunks_mut(width)
 }
 
 /// Returns the part of a pixel's field of view that the world covers; `None` where nothing of the field is sampled.
@@ -130,15 +210,18 @@ fn seen_part(world: &World, target: &View, (i, j): (usize, usize)) -> Option<f32
 }
 
 /// Visits a pixel and the eight around it.
-fn around<P>(pixels: &[P], width: usize, (i, j): (usize, usize)) -> impl Iterator<Item = &P> {
-    let height = pixels.len() / width.max(1);
+fn around<P>(pixels: &[P], width: usize, place: (usize, usize)) -> impl Iterator<Item = &P> {
+    places_around((width, pixels.len() / width.max(1)), place).map(move |(i, j)| &pixels[j * width + i])
+}
+
+/// Returns the place of a pixel and those of the eight around it, in a picture of this size.
+fn places_around((width, height): (usize, usize), (i, j): (usize, usize)) -> impl Iterator<Item = (usize, usize)> {
     let columns = i.saturating_sub(1)..width.min(i + 2);
-    (j.saturating_sub(1)..height.min(j + 2)).flat_map(move |row| &pixels[row * width..][columns.clone()])
+    (j.saturating_sub(1)..height.min(j + 2)).flat_map(move |j| columns.clone().map(move |i| (i, j)))
 }
 
 /// Returns the opaque mean of the eight pixels around one; `None` if there is nothing in them.
-fn mean_around(image: &Image<Rgba>, index: usize) -> Option<Rgba> {
-    let place = (index % image.width(), index / image.width());
+fn mean_around(image: &Image<Rgba>, place: (usize, usize)) -> Option<Rgba> {
     let mut sum = Rgba::TRANSPARENT;
     around(image.pixels(), image.width(), place).for_each(|pixel| sum += *pixel);
     (sum.alpha() > 0.0).then(|| sum * sum.alpha().recip())
@@ -215,6 +298,36 @@ mod tests {
         let grey = Rgba::opaque(0.5, 0.5, 0.5);
         assert_eq!([*image.get(21, 20), *image.get(20, 20), *image.get(22, 15)], [grey; 3]);
         assert_eq!(*image.get(23, 16), white);
+    }
+
+    #[test]
+    fn a_mask_takes_little_memory() {
+        let (world, _) = front_and_fisheye();
+        for size in [40, 300] {
+            let target = View { ..CameraModel::Fisheye(FisheyeCamera::default()).view(size, size).unwrap() };
+            let mask = ScreenMask::new(&world, &target);
+            let runs: usize = mask.rows.iter().map(|row| row.0.len()).sum();
+            assert!((size..12 * size).contains(&runs), "{runs} runs of {size}");
+        }
+        // A row says of each column what it was made of, whichever way it is asked.
+        let pixel = |i: usize| MaskPixel { coverage: (i % 5 / 2) as f32, seen: 1.0 };
+        let row = Row::of((0..23).map(pixel));
+        assert!((0..23).all(|i| row.at(i) == pixel(i)) && row.pixels().eq((0..23).map(pixel)));
+    }
+
+    #[test]
+    fn holes_in_every_row_are_closed_by_what_was_there_before() {
+        let (world, target) = front_and_fisheye();
+        let mask = ScreenMask::new(&world, &target);
+        let mut image = Image::filled(40, 40, Rgba::TRANSPARENT);
+        // One pixel closes those around it, and no others.
+        image.pixels_mut()[20 * 40 + 20] = Rgba::opaque(0.5, 0.5, 0.5);
+        let white = Rgba::opaque(1.0, 1.0, 1.0);
+        let shown = mask.rows.iter().flat_map(Row::pixels).filter(|pixel| pixel.is_shown()).count();
+        assert_eq!(mask.close_holes(&mut image, white), shown - 9);
+        let closed = |i: usize, j: usize| image.get(i, j).0[0] == 0.5;
+        let places = (0..40).flat_map(|j| (0..40).map(move |i| (i, j)));
+        assert_eq!(places.filter(|&(i, j)| closed(i, j)).count(), 9);
     }
 
     #[test]
