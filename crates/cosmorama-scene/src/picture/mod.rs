@@ -26,6 +26,9 @@ use tiles::Tile;
 /// Middles of a square's quarters, in parts of its side.
 const QUARTERS: [(f64, f64); 4] = [(-0.25, -0.25), (0.25, -0.25), (-0.25, 0.25), (0.25, 0.25)];
 
+/// Number of tiles that threads work on together: enough for all of them, and little memory.
+const TILES: usize = 1024;
+
 /// Light beside the things.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Background {
@@ -85,11 +88,14 @@ pub fn picture_over(
     let reflections: Vec<Option<Reflection>> = scene.objects.iter().map(reflection).collect();
     let marks = Marks::of(scene, camera);
     let pixel = Pixel { scene, camera, worlds, reflections: &reflections, marks: &marks, grain: grain(scene) };
-    let made: Vec<([usize; 2], Rgba)> =
-        seen.par_iter().flat_map_iter(|(tile, things)| pixel.tile(tile, things)).collect();
-    for ([i, j], thing) in made {
-        let behind = &mut image.pixels_mut()[j * width + i];
-        *behind = thing.over(*behind);
+    // Pixels of so many tiles are kept beside the picture.
+    for some in seen.chunks(TILES) {
+        let made: Vec<([usize; 2], Rgba)> =
+            some.par_iter().flat_map_iter(|(tile, things)| pixel.tile(tile, things)).collect();
+        for ([i, j], thing) in made {
+            let behind = &mut image.pixels_mut()[j * width + i];
+            *behind = thing.over(*behind);
+        }
     }
     Ok(image)
 }

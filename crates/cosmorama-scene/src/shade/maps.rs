@@ -89,11 +89,13 @@ impl LightMaps {
         })
     }
 
-    /// Returns the memory of the maps by roughness, and of their copies for look-ups, in bytes.
+    /// Returns the memory of the maps by roughness, and of their copies for look-ups, in bytes, and of the cube that mirrors look into,
+    /// with the weights by which it was made.
     pub fn bytes(&self) -> usize {
         let of =
             |world: &World| world.texel_count() * (size_of::<Rgba>() + size_of::<f32>()) + Feline.setup(world).bytes;
-        self.exact.iter().chain(&self.chain).map(|(_, map)| of(&map.world)).sum()
+        let cube = self.cube.as_ref().map_or(0, |cube| cube.world.texel_count() * CUBE_TEXEL);
+        self.exact.iter().chain(&self.chain).map(|(_, map)| of(&map.world)).sum::<usize>() + cube
     }
 
     /// Returns about how many bytes it took to make the maps, beside their own.
@@ -110,6 +112,9 @@ impl LightMaps {
 
 /// Greatest edge of the faces of a cube of a world's light.
 const EDGE: usize = 256;
+
+/// Bytes of a texel of that cube, with the weights by which it is made.
+const CUBE_TEXEL: usize = 42;
 
 impl LightMap {
     /// Returns a world's light on the faces of a cube, for what sees much of it at once: there an ellipse is an ellipse,

@@ -4,12 +4,10 @@ use cosmorama_convert::Radiance;
 use cosmorama_scene::{LightMaps, Scene};
 
 use super::camera::Shot;
+use super::output::Output;
 
 /// Bytes of a texel under which things are lit: its light, its solid angle, and its part of blocks of light.
 const LIT: usize = size_of::<Rgba>() + size_of::<f32>() + 11;
-
-/// Bytes of the cube of the world on which wide parts of pixels are seen, with the weights by which it is made.
-const CUBE: usize = 16 << 20;
 
 /// Light under which things are lit.
 pub(super) struct Lighting<'a> {
@@ -26,7 +24,7 @@ impl Lighting<'_> {
 
     /// Returns the memory of worlds, ready to be asked.
     fn bytes(&self) -> usize {
-        let prepared = |light: &Radiance| CUBE + self.filter.setup(&light.world).bytes;
+        let prepared = |light: &Radiance| self.filter.setup(&light.world).bytes;
         let maps = self.maps.iter().map(LightMaps::bytes).sum::<usize>();
         self.lit_bytes() + self.worlds.iter().map(prepared).sum::<usize>() + maps
     }
@@ -37,11 +35,17 @@ impl Lighting<'_> {
     }
 }
 
+/// Bytes of a pixel in lists of what is seen where.
+const LISTED: usize = 2;
+
 /// Returns the memory that pictures of things need with their tables of chrome, beside the things themselves and the program.
-pub(super) fn needed(scene: &Scene, lighting: &Lighting, shots: &[Shot], frames: usize) -> u64 {
-    let pixels: usize = shots.iter().map(|shot| shot.camera.width() * shot.camera.height()).sum();
-    // The picture, its samples, a sheet that it goes into, and what lies behind things that turn.
-    let pictures = 2 + usize::from(shots.iter().any(|shot| shot.place.is_some())) + usize::from(frames > 1);
-    let shaded = lighting.bytes() + scene.chrome_bytes() + pixels * pictures * size_of::<Rgba>();
+pub(super) fn needed(scene: &Scene, lighting: &Lighting, shots: &[Shot], (frames, output): (usize, &Output)) -> u64 {
+    let pixels = |shot: &Shot| shot.camera.width() * shot.camera.height();
+    let (largest, all) = (shots.iter().map(pixels).max().unwrap_or(0), shots.iter().map(pixels).sum::<usize>());
+    // The picture, a sheet that it goes into, and what lies behind things that turn.
+    let is_sheet = shots.iter().any(|shot| shot.place.is_some());
+    let pictures = largest + if is_sheet { all } else { 0 } + if frames > 1 { all } else { 0 };
+    let pictures = pictures * size_of::<Rgba>() + all * output.pixel_bytes() + largest * LISTED;
+    let shaded = lighting.bytes() + scene.chrome_bytes() + pictures;
     shaded.max(lighting.bytes_to_make()) as u64
 }

@@ -49,6 +49,12 @@ impl Output {
         Ok(Self { format, depth, gain: args.gain })
     }
 
+    /// Returns the bytes of a pixel's samples, with the copy that OpenEXR sorts.
+    pub(super) fn pixel_bytes(&self) -> usize {
+        let copies = if self.format == Format::Exr { 2 } else { 1 };
+        copies * Channels::Rgba.count() * self.depth.bytes()
+    }
+
     /// Writes a picture. What the format cannot hold is told.
     pub(super) fn write(
         &self,
