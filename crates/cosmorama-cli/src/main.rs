@@ -3,12 +3,12 @@
 //! Arguments are parsed and become settings of `cosmorama-convert` ([`args`]). Each verb runs ([`verbs`]) and prints
 //! its messages ([`mod@console`]).
 
+mod allocator;
 mod args;
 mod console;
 mod diagram;
 mod failure;
 mod interrupt;
-mod large_pages;
 mod parse;
 mod pipe;
 mod progress;
@@ -22,7 +22,7 @@ use clap::Parser;
 use crate::console::{Console, Log, VARIABLE};
 
 #[global_allocator]
-static ALLOCATOR: large_pages::LargePages = large_pages::LargePages;
+static ALLOCATOR: allocator::LargePages = allocator::LargePages;
 
 fn main() -> ExitCode {
     failure::report_panics();
@@ -31,7 +31,8 @@ fn main() -> ExitCode {
 
 /// Runs the program as it was called.
 fn run() -> ExitCode {
-    large_pages::give_back_pictures();
+    allocator::give_back_pictures();
+    allocator::end_where_memory_lacks();
     let args = match args::Args::try_parse() {
         Ok(args) => args,
         Err(error) => return failure::report_arguments(&error),

@@ -402,7 +402,7 @@ fn four_files_are_trusted_two_with_indices_one_with_memory_and_one_with_hints() 
         "cosmorama/src/filter/ewa/prefetch.rs",
         "cosmorama/src/render/apply/output_region.rs",
         "cosmorama/src/render/apply/texels.rs",
-        "cosmorama-cli/src/large_pages.rs",
+        "cosmorama-cli/src/allocator.rs",
     ];
     assert_eq!(found, trusted.map(|name| crates_folder().join(name)).into());
 }
