@@ -92,8 +92,34 @@ pub enum ProfileFault {
 
 /// Returns whether words can be an origin: every format holds them.
 fn is_origin(words: &str) -> bool {
-    const MOST: usize = 256;
-    (1..=MOST).contains(&words.len()) && words.bytes().all(|letter| (b' '..=b'~').contains(&letter))
+    (1..=LONGEST_ORIGIN).contains(&words.len()) && words.chars().all(is_plain)
+}
+
+const LONGEST_ORIGIN: usize = 256;
+
+fn is_plain(letter: char) -> bool {
+    (' '..='~').contains(&letter)
+}
+
+/// Returns the origin in the name of the program that wrote a file. Of one that is ours but for a letter it is the whole name, which no
+/// reader takes for words as they were written: few formats have checksums of texts.
+fn origin_of(software: &str) -> Option<String> {
+    let words = software.strip_prefix(SOFTWARE).and_then(|rest| rest.strip_prefix(" (")?.strip_suffix(')'));
+    match words {
+        Some(words) if is_origin(words) => Some(words.to_owned()),
+        _ => {
+            let letters = software.chars().map(|letter| if is_plain(letter) { letter } else { '?' });
+            is_nearly_ours(software).then(|| letters.take(LONGEST_ORIGIN).collect())
+        }
+    }
+}
+
+/// Returns whether at most one letter around the words of an origin is another.
+fn is_nearly_ours(software: &str) -> bool {
+    let start: Vec<char> = SOFTWARE.chars().chain(" (".chars()).collect();
+    let letters = software.chars().count();
+    let differ = start.iter().zip(software.chars()).filter(|(expected, found)| **expected != *found).count();
+    letters > start.len() + 1 && differ + usize::from(!software.ends_with(')')) <= 1
 }
 
 impl Metadata {
@@ -105,9 +131,7 @@ impl Metadata {
 
     /// Returns the metadata of a file that names the program which wrote it.
     pub(crate) fn by(software: Option<String>) -> Self {
-        let words =
-            software.as_deref().and_then(|name| name.strip_prefix(SOFTWARE)?.strip_prefix(" (")?.strip_suffix(')'));
-        let origin = words.filter(|words| is_origin(words)).map(str::to_owned);
+        let origin = software.as_deref().and_then(origin_of);
         Self { software, origin, ..Self::default() }
     }
 

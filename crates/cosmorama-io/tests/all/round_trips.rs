@@ -387,6 +387,32 @@ fn origins_come_back() {
     }
 }
 
+/// A flipped bit in the name of the program, or in the words behind it, is seen: the words are others, but not none.
+#[test]
+fn damaged_origins_are_not_none() {
+    const ORIGIN: &str = "0.2.0, geometry 0123abcd, pose 11111111, check 22222222";
+    let name = format!("cosmorama ({ORIGIN})");
+    let options = || WriteOptions::with_metadata(Metadata { origin: Some(ORIGIN.to_owned()), ..Metadata::default() });
+    for format in [Format::Jpeg, Format::Tiff, Format::Exr, Format::Hdr] {
+        let image = picture(8, 6, Channels::Rgb, format.nearest_depth(Depth::Eight));
+        let mut good = Cursor::new(Vec::new());
+        write_to(&mut good, "a", format, &image, &options()).unwrap();
+        let good = good.into_inner();
+        let at = good.windows(name.len()).position(|part| part == name.as_bytes()).expect("the name of the program");
+        for bit in 0..8 * name.len() {
+            let mut damaged = good.clone();
+            damaged[at + bit / 8] ^= 1 << (bit % 8);
+            let found = probe_from(Cursor::new(damaged), "a").unwrap().metadata.origin;
+            assert!(found.as_ref().is_some_and(|found| found != ORIGIN), "{format}, bit {bit}: {found:?}");
+        }
+    }
+    // Of other programs, and of ours without words, there are none.
+    for other in ["cosmorama", "cosmorama 0.3", "cosmorama-view (x)", "Adobe Photoshop (Windows)", "Überblender (1)"] {
+        let file = format!("#?RADIANCE\nSOFTWARE={other}\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\nabcd");
+        assert_eq!(probe_from(Cursor::new(file), "a").unwrap().metadata.origin, None, "{other}");
+    }
+}
+
 /// Statements about pixels are found again where a format has a place for them.
 #[test]
 fn remarks_are_written() {

@@ -117,16 +117,18 @@ fn frames_by_other_settings_or_of_other_inputs_are_no_part_of_it() {
         assert_says(&bench.fail(1, &resume), &[&format!("out_1.{end} was made with other inputs")]);
         std::fs::remove_file(bench.path(&format!("out_1.{end}"))).unwrap();
         bench.succeed(&resume);
-        // A digit of a digest is damage, not other settings.
-        let path = bench.path(&format!("out_2.{end}"));
-        let mut file = std::fs::read(&path).unwrap();
-        let digit = file.windows(9).position(|word| word == b"geometry ").unwrap() + 9;
-        file[digit] = if file[digit] == b'0' { b'1' } else { b'0' };
-        std::fs::write(&path, file).unwrap();
-        let verified = bench.run(&["verify", &out, "--frames", "1-3"]);
-        assert_says(&text(&verified.stdout), &["damaged", ": 2\n"]);
-        let report: Value = serde_json::from_str(&bench.succeed(&[&resume[..], &["--json"]].concat())).unwrap();
-        assert_eq!((&report["frames"], &report["skipped"]), (&1.into(), &2.into()), "{end}: {report}");
+        // A digit of a digest is damage, not other settings, and so is a bit of any letter, or of the program's name.
+        for (word, bit) in [("geometry ", 1), ("geome", 0x80), ("cosmorama", 0x10), ("cosmo", 0x80)] {
+            let path = bench.path(&format!("out_2.{end}"));
+            let mut file = std::fs::read(&path).unwrap();
+            let behind = file.windows(word.len()).position(|found| found == word.as_bytes()).unwrap() + word.len();
+            file[behind] ^= bit;
+            std::fs::write(&path, file).unwrap();
+            let verified = bench.run(&["verify", &out, "--frames", "1-3"]);
+            assert_says(&text(&verified.stdout), &["damaged", ": 2\n"]);
+            let report: Value = serde_json::from_str(&bench.succeed(&[&resume[..], &["--json"]].concat())).unwrap();
+            assert_eq!((&report["frames"], &report["skipped"]), (&1.into(), &2.into()), "{end}, {word}: {report}");
+        }
     }
 }
 

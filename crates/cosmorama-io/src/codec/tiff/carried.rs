@@ -24,6 +24,8 @@ const NATIVE: ByteOrder = if cfg!(target_endian = "little") { ByteOrder::LittleE
 pub(super) struct Found {
     pub(super) carried: Carried,
     pub(super) complaints: Vec<String>,
+    /// Name of the program that wrote the file; damaged letters are replaced.
+    pub(super) software: Option<String>,
     /// Number of values that have been read.
     count: u64,
 }
@@ -34,6 +36,8 @@ pub(super) fn read<R: Read + Seek>(decoder: &mut Decoder<R>) -> Found {
     let mut fields = Vec::new();
     let mut own = decoder.image_ifd();
     found.fields(&mut own, Context::Tiff, &mut fields);
+    let software = found.bytes(&mut own, Tag::Software);
+    found.software = software.map(|(_, name)| String::from_utf8_lossy(&name).trim_end_matches('\0').to_owned());
     if let Some((_, packet)) = found.bytes(&mut own, XMP) {
         let added = found.carried.add_xmp(&packet);
         found.complaints.extend(added.err().map(|reason| format!("its XMP metadata are left out: {reason}")));

@@ -245,9 +245,8 @@ fn header(path: &Path, decoder: &mut Decoder<Source<'_>>) -> Result<Header, IoEr
 /// Reads the metadata; tags that are missing or unreadable are left out.
 fn metadata(decoder: &mut Decoder<Source<'_>>) -> Metadata {
     let profile = decoder.get_tag_u8_vec(ICC_PROFILE).ok();
-    let software = decoder.get_tag_ascii_string(Tag::Software).ok();
     let orientation = decoder.find_tag_unsigned::<u16>(Tag::Orientation).ok().flatten();
-    let carried::Found { carried, complaints, .. } = carried::read(decoder);
+    let carried::Found { carried, complaints, software, .. } = carried::read(decoder);
     let metadata = Metadata {
         orientation: orientation.filter(|orientation| (2..=8).contains(orientation)),
         complaints,

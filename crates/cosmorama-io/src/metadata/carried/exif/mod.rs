@@ -83,7 +83,8 @@ impl Exif {
         let own = |field: &Field| field.tag == Tag::Software && field.ifd_num == In::PRIMARY;
         let field = self.fields().into_iter().find(own)?;
         let Value::Ascii(texts) = field.value else { return None };
-        texts.first().map(|text| String::from_utf8_lossy(text).into_owned())
+        // Zeros end texts; one within the name is damage.
+        (!texts.is_empty()).then(|| String::from_utf8_lossy(&texts.join(&0)).trim_end_matches('\0').to_owned())
     }
 
     /// Returns whether the fields say that a camera was set to Adobe RGB, as files without a profile do (DCF 2.0, CIPA
