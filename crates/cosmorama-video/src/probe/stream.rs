@@ -123,13 +123,17 @@ fn turn(value: &Value) -> Option<Turn> {
     }
 }
 
-/// Returns the seconds of the stream: its own, or Matroska's tag such as `00:01:02.500000000`.
+/// Returns the seconds of the stream: its own, or Matroska's tag such as `00:01:02.500000000`. As ffmpeg writes it, that is the time at
+/// which the last frame ends; longer sound begins before the first one.
 fn duration(value: &Value) -> Option<f64> {
     let own = text(value, "duration").and_then(|seconds| seconds.parse().ok());
+    let start = text(value, "start_time").and_then(|seconds| seconds.parse::<f64>().ok()).unwrap_or(0.0);
     let tag = || {
         let tags = value["tags"].as_object()?;
         let (_, text) = tags.iter().find(|(name, _)| name.eq_ignore_ascii_case("duration"))?;
-        text.as_str()?.trim().split(':').try_fold(0.0, |sum, part| Some(sum * 60.0 + part.parse::<f64>().ok()?))
+        let end =
+            text.as_str()?.trim().split(':').try_fold(0.0, |sum, part| Some(sum * 60.0 + part.parse::<f64>().ok()?));
+        Some(end? - start)
     };
     own.or_else(tag).filter(|seconds: &f64| seconds.is_finite() && *seconds > 0.0)
 }

@@ -113,10 +113,11 @@ impl Ffmpeg {
 
     /// Finds out whether the first hundred frames follow each other at the rate that is told.
     pub(super) fn begins_evenly(&self, info: &VideoInfo) -> Result<bool, VideoError> {
-        /// Frames at the end of those that are read, before which others may come that were not read.
+        /// Frames at the end of those that are read, or that are left of a cut file, before which others may come.
         const UNSURE: usize = 20;
         let times = self.times_of(info, &["-read_intervals", "%+#120"])?;
-        let sure = times.len().saturating_sub(if times.len() < 100 { 0 } else { UNSURE });
+        let is_whole = times.len() < 100 && info.cut.is_none();
+        let sure = times.len().saturating_sub(if is_whole { 0 } else { UNSURE });
         let even = Timeline::Even { start: info.start, time_base: info.time_base, rate: info.rate };
         Ok(times[..sure].iter().zip(0..).all(|(time, frame)| even.frame(*time) == frame))
     }

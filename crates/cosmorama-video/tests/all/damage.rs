@@ -144,6 +144,9 @@ fn a_cut_file_is_refused_and_its_missing_frames_are_named() {
         ("b.mp4", "-c:v libx264 -g 10 -movflags +faststart"),
         ("c.avi", "-c:v mjpeg -pix_fmt yuvj420p"),
         ("d.webm", "-c:v libvpx-vp9 -g 10"),
+        // Sound that begins before the first frame and ends after the last.
+        ("e.mkv", "-f lavfi -i sine=duration=3 -c:v libx264 -bf 0 -g 10 -c:a aac"),
+        ("f.mkv", "-f lavfi -i sine=duration=3 -c:v libx264 -g 10 -c:a aac"),
     ] {
         let path = folder.path().join(name);
         run(&format!("{} {arguments}", moving(128, 64, "25", 50)), &path);
