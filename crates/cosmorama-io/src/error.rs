@@ -247,9 +247,9 @@ pub enum IoError {
     },
     /// The first and the last frame of a sequence are too far apart for one.
     #[error(
-        "{pattern}: the first frame is {} and the last {}, too far apart for one sequence; move what does not belong to it, or choose frames \
-         with --frames",
-        existing.0, existing.1
+        "{pattern}: the first frame is {} and the last {}, too far apart for one sequence; move what does not belong to it, or choose frames, \
+         as with --frames {}-{}",
+        existing.0, existing.1, existing.0, existing.0.saturating_add(99)
     )]
     FarFrames {
         /// The pattern.

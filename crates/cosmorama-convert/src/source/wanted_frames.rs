@@ -160,7 +160,7 @@ fn all_frames(sequences: &[Series]) -> Result<FrameList> {
         existing.extend(series.existing()?);
     }
     match (existing.first(), existing.last(), &sequences[0]) {
-        (Some(&first), Some(&last), _) if last - first < 10_000_000 => Ok(FrameList::new(first..=last)),
+        (Some(&first), Some(&last), _) if last - first < Frames::MOST => Ok(FrameList::new(first..=last)),
         // Searching for frames of one sequence returns the best error when there is none.
         (.., Series::Files(pattern)) => Ok(Frames::find((*pattern).clone(), None)?.list().clone()),
         (.., Series::Video { name, .. }) => bail!(NotFound: "{name}: a video without a frame; make it again"),

@@ -24,15 +24,15 @@ pub struct Frames {
     list: FrameList,
 }
 
-/// Frames from the first to the last of one sequence, at most.
-const MOST: u64 = 10_000_000;
-
 impl Frames {
+    /// Frames from the first to the last of one sequence, at most; more is another sequence's number, or a date.
+    pub const MOST: u64 = 10_000_000;
+
     /// Finds the requested frames, or all that exist.
     ///
     /// # Errors
     /// When there are no frames, a requested frame is missing, or, without a list, a frame between the first and the
-    /// last is missing, or these two are more than ten million apart. The message names all missing frames.
+    /// last is missing, or these two are [`Self::MOST`] or more apart. The message names all missing frames.
     pub fn find(pattern: FramePattern, wanted: Option<&FrameList>) -> Result<Self, IoError> {
         let existing = pattern.existing()?;
         let (Some(&first), Some(&last)) = (existing.first(), existing.last()) else {
@@ -44,7 +44,7 @@ impl Frames {
         };
         let missing = match wanted {
             Some(list) => FrameList::new(list.frames().iter().copied().filter(|frame| !existing.contains(frame))),
-            None if last - first >= MOST => {
+            None if last - first >= Self::MOST => {
                 return Err(IoError::FarFrames { pattern: pattern.as_str().to_owned(), existing: (first, last) });
             }
             None => holes(&existing, first, last),

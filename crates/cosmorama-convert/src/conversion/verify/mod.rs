@@ -9,7 +9,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use cosmorama::raster::{Image, Rgba};
-use cosmorama_io::{Choice, FrameList, Limits};
+use cosmorama_io::{Choice, FrameList, Frames, IoError, Limits};
 use cosmorama_spec::Size;
 use rayon::prelude::*;
 
@@ -57,9 +57,6 @@ impl Verified {
         FrameList::new(self.faults.iter().map(|of| of.frame))
     }
 }
-
-/// Greatest number of frames from the first to the last; more is another sequence's number, or a date.
-const MOST: u64 = 1_000_000;
 
 /// Greatest number of frames that are read together.
 const AT_ONCE: usize = 64;
@@ -126,11 +123,10 @@ impl Verification<'_> {
             return Ok(wanted);
         }
         match existing_frames(series, files)?[..] {
-            [first, .., last] if last - first >= MOST => Err(usage(format!(
-                "{text}: the first frame is {first} and the last {last}, too far apart for one sequence; move what does not belong \
-                 to it, or choose frames, as in {FRAMES} {first}-{}",
-                first + 99
-            ))),
+            [first, .., last] if last - first >= Frames::MOST => {
+                let far = IoError::FarFrames { pattern: text.to_string(), existing: (first, last) };
+                Err(usage(far.to_string()))
+            }
             [first, .., last] => Ok((first..=last).collect()),
             ref few => Ok(few.to_vec()),
         }
