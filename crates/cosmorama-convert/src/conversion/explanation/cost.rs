@@ -57,9 +57,13 @@ struct Nanoseconds {
     written: f64,
 }
 
-/// Nanoseconds of each pixel that shows something, and of each texel that is averaged, where the geometry is computed, too: those of
-/// tilted domes of 512² to 2048² from panoramas of 1024×512 and 4096×2048 (docs/performance.md, "A moving camera").
-const GEOMETRY: (f64, f64) = (65.0, 5.5);
+impl Nanoseconds {
+    /// Returns those of frames whose geometry is computed, too, as of tilted domes of 512² to 2048² from panoramas of 1024×512 and
+    /// 4096×2048 (docs/performance.md, "A moving camera").
+    fn with_geometry(self) -> Self {
+        Self { pixel: 65.0, texel: 5.5, ..self }
+    }
+}
 
 impl CostedFiles {
     /// All kinds.
@@ -160,8 +164,8 @@ impl Explanation {
 
 /// Returns the processor seconds of a frame, whose geometry is kept unless the camera moves.
 fn seconds((files, is_moving): (CostedFiles, bool), input: &Input, raw: u64, reports: &[explain::Report]) -> f64 {
-    let Nanoseconds { pixel, texel, read, written } = files.nanoseconds();
-    let (pixel, texel) = if is_moving { GEOMETRY } else { (pixel, texel) };
+    let nanoseconds = files.nanoseconds();
+    let Nanoseconds { pixel, texel, read, written } = if is_moving { nanoseconds.with_geometry() } else { nanoseconds };
     let filtered = |report: &explain::Report| {
         let shown = (report.size.0 * report.size.1) as f64 * report.shown;
         shown * (pixel + texel * report.gathered.mean)

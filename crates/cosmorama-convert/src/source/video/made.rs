@@ -115,12 +115,10 @@ impl MadeVideos {
         let frames = plan.source.as_ref().map(|source| &source.frames[..]);
         let source =
             info.as_ref().zip(frames).map(|(info, frames)| Shown { info, frames, timeline: timeline.as_ref() });
-        let mut of_rate = Vec::new();
-        let (times, stamps) = times((rate, plan), source, &mut of_rate);
-        // Netpbm's streams name no rate.
-        if outputs.iter().any(|(path, _)| !matches!(RawKind::of(path), Some(RawKind::Pam | RawKind::Pfm))) {
-            told.append(&mut of_rate);
-        }
+        // Netpbm's streams name none.
+        let names_rate = |(path, _): &(PathBuf, _)| !matches!(RawKind::of(path), Some(RawKind::Pam | RawKind::Pfm));
+        let names_rate = outputs.iter().any(names_rate);
+        let (times, stamps) = times((rate, plan, names_rate), source, told);
         let mut all = Vec::new();
         for (path, size) in outputs {
             let state =
@@ -316,7 +314,7 @@ fn codec(plan: &VideoPlan) -> Result<Option<Codec>> {
 
 /// Returns the times of the frames, as settings and, of a variable rate, one by one.
 fn times(
-    (rate, plan): (Option<FrameRate>, &VideoPlan),
+    (rate, plan, names_rate): (Option<FrameRate>, &VideoPlan, bool),
     source: Option<Shown>,
     told: &mut Vec<Diagnostic>,
 ) -> (FrameTimes, Vec<i64>) {
@@ -325,7 +323,7 @@ fn times(
         return (even(rate), Vec::new());
     }
     let Some(Shown { info, frames, timeline }) = source else {
-        if plan.frames != Some(1) {
+        if names_rate && plan.frames != Some(1) {
             let message = format!(
                 "the video gets {USUAL} frames a second, since nothing tells its rate; give another with {FPS}"
             );

@@ -134,6 +134,17 @@ mod tests {
                 }
             }
         }
-        assert!(coverage.share() > 0.5 && (coverage.lacks().is_some() || coverage.share() == 1.0));
+    }
+
+    #[test]
+    fn what_lacks_is_told_until_all_is_covered() {
+        let view = CameraModel::Equirect(EquirectCamera::default()).view(64, 32).expect("a size");
+        let mut coverage = SphereCoverage::new();
+        assert_eq!(coverage.share(), 0.0);
+        coverage.add(&view, Some(&ViewMask::new(64, 32, |i, _| i < 32)));
+        assert!((coverage.share() - 0.5).abs() < 0.01, "{}", coverage.share());
+        assert!(coverage.lacks().is_some());
+        coverage.add(&view, None);
+        assert_eq!((coverage.share(), coverage.lacks().is_none()), (1.0, true));
     }
 }
