@@ -7,38 +7,42 @@
 #![allow(unsafe_code)]
 
 use std::alloc::{GlobalAlloc, Layout, System};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::cell::Cell;
 
 /// Number of bytes from which memory belongs to a picture and gets large pages.
 #[cfg(any(test, target_os = "linux"))]
 const LARGE: usize = 4 << 20;
 
-pub(crate) struct LargePages;
+pub(crate) struct Allocator;
 
-/// Bytes that were asked for last without being had.
-static LACKING: AtomicUsize = AtomicUsize::new(0);
+thread_local! {
+    /// Whether the system has refused the memory that this thread asked for last.
+    static IS_REFUSED: Cell<bool> = const { Cell::new(false) };
+    /// Whether it has ever done so. Rust's own report about it takes memory, and the signal follows.
+    static WAS_REFUSED: Cell<bool> = const { Cell::new(false) };
+}
 
-/// Returns the bytes that the system has last refused, if it has.
-pub(crate) fn lacking() -> Option<usize> {
-    Some(LACKING.load(Ordering::Relaxed)).filter(|bytes| *bytes > 0)
+/// Returns whether the system has refused the memory that this thread asked for last: what fails now fails for want of it.
+pub(crate) fn is_refused() -> bool {
+    IS_REFUSED.get()
 }
 
 // SAFETY: all memory comes from the system's allocator and returns to it with the same layout. Requests for large pages
 // change no contents.
-unsafe impl GlobalAlloc for LargePages {
+unsafe impl GlobalAlloc for Allocator {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         // SAFETY: the caller promises what the system's allocator requires, here and below.
-        had(unsafe { System.alloc(layout) }, layout.size())
+        noted(unsafe { System.alloc(layout) }, layout.size())
     }
 
     unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
         // SAFETY: as above.
-        had(unsafe { System.alloc_zeroed(layout) }, layout.size())
+        noted(unsafe { System.alloc_zeroed(layout) }, layout.size())
     }
 
     unsafe fn realloc(&self, memory: *mut u8, layout: Layout, size: usize) -> *mut u8 {
         // SAFETY: as above.
-        had(unsafe { System.realloc(memory, layout, size) }, size)
+        noted(unsafe { System.realloc(memory, layout, size) }, size)
     }
 
     unsafe fn dealloc(&self, memory: *mut u8, layout: Layout) {
@@ -47,34 +51,40 @@ unsafe impl GlobalAlloc for LargePages {
     }
 }
 
-/// Advice for where memory runs out.
-pub(crate) const TAKE_LESS: &str = "close other programs, or give less to --memory or --threads";
+/// Error of a program to which the system has refused memory.
+pub(crate) const OUT_OF_MEMORY: &str =
+    "error: memory ran out; close other programs, raise limits, or give less to --memory or --threads";
 
-/// Makes the program end with exit code 1, not by a signal, where Rust aborts it for want of memory, and has told the bytes.
+/// Makes the program end with exit code 1, not by a signal, where Rust aborts it because memory was refused.
 #[cfg(target_os = "linux")]
 pub(crate) fn end_where_memory_lacks() {
+    use signal_hook::consts::SIGABRT;
+    use signal_hook::low_level;
     let end = || {
-        if lacking().is_some() {
-            let said = [b"error: memory ran out; ", TAKE_LESS.as_bytes(), b"\n"];
-            for part in said {
-                let _ = rustix::io::write(rustix::stdio::stderr(), part);
+        if WAS_REFUSED.get() {
+            for part in [OUT_OF_MEMORY, "\n"] {
+                let _ = rustix::io::write(rustix::stdio::stderr(), part.as_bytes());
             }
-            signal_hook::low_level::exit(1);
+            low_level::exit(1);
         }
+        // Others may have sent the signal.
+        let _ = low_level::emulate_default_handler(SIGABRT);
     };
-    // Where this may not be, the signal ends the program as before.
-    // SAFETY: what runs reads a number, writes to an open file and ends the process: no lock and no memory is taken.
-    let _ = unsafe { signal_hook::low_level::register(signal_hook::consts::SIGABRT, end) };
+    // Where the signal cannot be watched for, it ends the program as before.
+    // SAFETY: what runs reads a flag, writes to an open file and ends the process: no lock and no memory is taken.
+    let _ = unsafe { low_level::register(SIGABRT, end) };
 }
 
-/// Does nothing: other systems have limits of their own.
+/// Does nothing: the system's own signal ends the program.
 #[cfg(not(target_os = "linux"))]
 pub(crate) fn end_where_memory_lacks() {}
 
-/// Notes a refusal, and requests large pages for other memory.
-fn had(memory: *mut u8, size: usize) -> *mut u8 {
-    if memory.is_null() {
-        LACKING.store(size, Ordering::Relaxed);
+/// Notes whether memory was refused, and requests large pages for what was not.
+fn noted(memory: *mut u8, size: usize) -> *mut u8 {
+    let is_refused = memory.is_null();
+    IS_REFUSED.set(is_refused);
+    if is_refused {
+        WAS_REFUSED.set(true);
         return memory;
     }
     prefer_large_pages(memory, size)
@@ -109,17 +119,38 @@ fn prefer_large_pages(memory: *mut u8, _: usize) -> *mut u8 {
 pub(crate) fn give_back_pictures() {
     // SAFETY: `mallopt` takes any number, and affects only later allocations.
     unsafe { libc::mallopt(libc::M_MMAP_THRESHOLD, LARGE as libc::c_int) };
-    if has_limit_of_addresses() {
+    if limit_of_addresses().is_some() {
         // Each thread's heap would reserve 64 MiB of addresses, used or not, which pictures then lack.
         // SAFETY: as above.
         unsafe { libc::mallopt(libc::M_ARENA_MAX, 1) };
     }
 }
 
-/// Returns whether `ulimit -v` holds.
-#[cfg(all(target_os = "linux", target_env = "gnu"))]
-fn has_limit_of_addresses() -> bool {
-    rustix::process::getrlimit(rustix::process::Resource::As).current.is_some()
+/// Returns the bytes of addresses that `ulimit -v` leaves, if it holds.
+#[cfg(target_os = "linux")]
+fn limit_of_addresses() -> Option<u64> {
+    rustix::process::getrlimit(rustix::process::Resource::As).current
+}
+
+/// Refuses fewer addresses than the program with its threads takes, beside pictures.
+///
+/// # Errors
+/// When `ulimit -v` leaves fewer.
+#[cfg(target_os = "linux")]
+pub(crate) fn check_addresses() -> anyhow::Result<()> {
+    const LEAST: u64 = 64 << 20;
+    match limit_of_addresses().filter(|bytes| *bytes < LEAST) {
+        Some(bytes) => {
+            anyhow::bail!("ulimit -v leaves {} KiB; the program takes {} and more", bytes >> 10, LEAST >> 10)
+        }
+        None => Ok(()),
+    }
+}
+
+/// Does nothing: other systems have no such limit.
+#[cfg(not(target_os = "linux"))]
+pub(crate) fn check_addresses() -> anyhow::Result<()> {
+    Ok(())
 }
 
 /// Does nothing: only glibc needs this.
@@ -142,27 +173,42 @@ mod tests {
     fn memory_that_there_is_not_is_an_error() {
         let mut list: Vec<u64> = numbers(99).collect();
         assert!(list.try_reserve_exact(isize::MAX as usize / 16).is_err());
-        assert!(lacking().is_some());
+        assert!(is_refused());
+        list.push(1);
+        list.shrink_to_fit();
+        drop(vec![0_u8; 9]);
+        assert!(!is_refused());
+        list.pop();
         assert!(list.iter().copied().eq(numbers(99)));
     }
 
-    /// Runs in a process of its own: see below.
+    /// Variable of the environment by which a process that runs [`ends`] is told how.
+    const ENDING: &str = "COSMORAMA_TEST_ENDING";
+
+    /// Ends the process that the next test starts, in the way that it says.
     #[test]
     #[ignore = "ends the process"]
-    fn takes_more_than_there_is() {
+    fn ends() {
+        let Ok(way) = std::env::var(ENDING) else { return };
         end_where_memory_lacks();
-        drop(Vec::<u64>::with_capacity(isize::MAX as usize / 16));
+        if way == "memory" {
+            drop(std::hint::black_box(Vec::<u64>::with_capacity(isize::MAX as usize / 16)));
+        }
+        signal_hook::low_level::raise(signal_hook::consts::SIGABRT).unwrap();
     }
 
     #[test]
     #[cfg(target_os = "linux")]
-    fn memory_that_there_is_not_ends_the_program_with_an_exit_code() {
-        let this = std::env::current_exe().unwrap();
-        let arguments = ["--exact", "allocator::tests::takes_more_than_there_is", "--ignored", "--nocapture"];
-        let ended = std::process::Command::new(this).args(arguments).output().unwrap();
-        let said = String::from_utf8_lossy(&ended.stderr).into_owned();
-        assert_eq!(ended.status.code(), Some(1), "{said}");
-        assert!(said.contains("error: memory ran out; close"), "{said}");
+    fn only_a_lack_of_memory_ends_the_program_with_an_exit_code_where_it_is_aborted() {
+        for (way, code) in [("memory", Some(1)), ("signal", None)] {
+            let mut this = std::process::Command::new(std::env::current_exe().unwrap());
+            this.args(["--exact", "allocator::tests::ends", "--ignored", "--nocapture"]);
+            this.env(ENDING, way).env("RUST_BACKTRACE", "1");
+            let ended = this.output().unwrap();
+            let said = String::from_utf8_lossy(&ended.stderr).into_owned();
+            assert_eq!(ended.status.code(), code, "{said}");
+            assert_eq!(said.contains(OUT_OF_MEMORY), code.is_some(), "{said}");
+        }
     }
 
     #[test]

@@ -22,7 +22,7 @@ use clap::Parser;
 use crate::console::{Console, Log, VARIABLE};
 
 #[global_allocator]
-static ALLOCATOR: allocator::LargePages = allocator::LargePages;
+static ALLOCATOR: allocator::Allocator = allocator::Allocator;
 
 fn main() -> ExitCode {
     failure::report_panics();

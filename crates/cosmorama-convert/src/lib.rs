@@ -33,7 +33,7 @@ pub use engine::{CpuSeconds, InterpolationReport, LightReport};
 pub use input::{Builtin, Input, InputView, Listed, face_set, is_one_file, listed};
 #[cfg(fuzzing)]
 pub use job::compared_origins;
-pub use job::{Remade, check_apart, real_path, refuse_existing};
+pub use job::{Remade, check_apart, encoded_beside, packed_blocks, real_path, refuse_existing};
 pub use packing::{Place, face_placement};
 pub use settings::{
     Backdrop, BlurMethod, CameraMovement, Conversion, DepthKind, Every, Existing, GeometrySettings, LayerSettings,

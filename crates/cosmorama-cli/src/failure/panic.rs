@@ -1,23 +1,18 @@
 use std::panic::PanicHookInfo;
 
-use crate::allocator::{TAKE_LESS, lacking};
+use crate::allocator::{OUT_OF_MEMORY, is_refused};
 use crate::console::say;
 
 /// Reports panics, which are faults of ours, on one line from now on, except those of decoders, which become errors about their files.
-/// With RUST_BACKTRACE set, Rust's own report stays. Where memory has run out, that is told instead.
+/// With RUST_BACKTRACE set, Rust's own report stays. Where memory was refused, that is told instead.
 pub(crate) fn report_panics() {
     let usual = std::env::var_os("RUST_BACKTRACE").is_some_and(|value| value != "0").then(std::panic::take_hook);
-    std::panic::set_hook(Box::new(move |info| match (lacking(), &usual) {
-        _ if usual.is_none() && cosmorama_io::is_contained() => {}
-        (Some(bytes), _) => say(short(bytes)),
-        (None, Some(usual)) => usual(info),
-        (None, None) => say(line(info)),
+    std::panic::set_hook(Box::new(move |info| match (&usual, is_refused()) {
+        (None, _) if cosmorama_io::is_contained() => {}
+        (_, true) => say(OUT_OF_MEMORY.to_owned()),
+        (Some(usual), false) => usual(info),
+        (None, false) => say(line(info)),
     }));
-}
-
-/// Tells of memory that ran out in spite of estimates: others may have taken it.
-fn short(bytes: usize) -> String {
-    format!("error: memory ran out, of which {bytes} bytes more were wanted; {TAKE_LESS}")
 }
 
 fn line(info: &PanicHookInfo<'_>) -> String {
@@ -39,11 +34,6 @@ mod tests {
     use std::sync::Mutex;
 
     use super::*;
-
-    #[test]
-    fn memory_that_ran_out_is_told() {
-        assert_eq!(short(7), format!("error: memory ran out, of which 7 bytes more were wanted; {TAKE_LESS}"));
-    }
 
     #[test]
     fn a_panic_is_one_line_that_asks_for_a_report() {

@@ -17,13 +17,14 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
 
-use anyhow::{Result, anyhow};
+use anyhow::{Context, Result, anyhow};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
 use cosmorama_convert::refuse_existing;
 use cosmorama_io::pending::NewFolders;
 use cosmorama_io::{Format, Metadata, WriteOptions, write};
 use cosmorama_spec::DepthName;
 
+use crate::allocator;
 use crate::args::{OutputArgs, Verb};
 use crate::console::Console;
 use crate::failure::usage;
@@ -31,7 +32,12 @@ use crate::interrupt;
 
 /// Runs the verb that was typed.
 pub(crate) fn run(verb: Verb, console: &mut Console) -> Result<ExitCode> {
+    allocator::check_addresses()?;
     interrupt::install(console.unfinished.clone())?;
+    if let Verb::Info(_) | Verb::Explain(_) | Verb::Compare(_) | Verb::Filters(_) = verb {
+        // Started here, so that it is an error where they cannot be.
+        rayon::ThreadPoolBuilder::new().build_global().context("cannot start threads")?;
+    }
     match verb {
         Verb::Demo(args) => demo::run(&args, console),
         Verb::Convert(args) => convert::run(*args, console),

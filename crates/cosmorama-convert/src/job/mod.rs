@@ -12,6 +12,7 @@ pub(crate) mod outputs;
 mod queue_depth;
 mod resume;
 
+pub use memory_needs::{encoded_beside, packed_blocks};
 pub use outputs::{check_apart, real_path, refuse_existing};
 pub use resume::Remade;
 pub(crate) use resume::Resumed;

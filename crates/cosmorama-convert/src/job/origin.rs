@@ -148,7 +148,10 @@ fn checked(words: String) -> String {
 pub(crate) fn is_damaged(origin: &str) -> bool {
     match origin.rsplit_once(CHECK) {
         Some((words, check)) => check != words_digest(words),
-        None => origin.split(',').next() == Some(VERSION),
+        // With the program's name before them, words are not as they were written.
+        None => {
+            origin.split(',').next().is_some_and(|first| first == VERSION || first.ends_with(&format!("({VERSION}")))
+        }
     }
 }
 
@@ -246,6 +249,11 @@ mod tests {
             assert!(is_damaged(&String::from_utf8(damaged).unwrap()), "{at}");
             let is_before_the_words = at < VERSION.len();
             assert!(is_before_the_words || is_damaged(&whole[..at]), "{at}");
+        }
+        // As they are read where a letter is none: with the program's name, and a mark in that letter's place.
+        let named = format!("cosmorama ({whole})");
+        for at in 0..named.len() {
+            assert!(is_damaged(&format!("{}?{}", &named[..at], &named[at + 1..])), "{at}");
         }
         // Those of versions before had no such digest.
         assert!(!is_damaged("0.1.0, geometry 1, filter 2"));

@@ -161,6 +161,9 @@ fn all_frames(sequences: &[Series]) -> Result<FrameList> {
     }
     match (existing.first(), existing.last(), &sequences[0]) {
         (Some(&first), Some(&last), _) if last - first < Frames::MOST => Ok(FrameList::new(first..=last)),
+        (Some(&first), Some(&last), Series::Files(pattern)) => {
+            Err(IoError::FarFrames { pattern: pattern.as_str().to_owned(), existing: (first, last) }.into())
+        }
         // Searching for frames of one sequence returns the best error when there is none.
         (.., Series::Files(pattern)) => Ok(Frames::find((*pattern).clone(), None)?.list().clone()),
         (.., Series::Video { name, .. }) => bail!(NotFound: "{name}: a video without a frame; make it again"),

@@ -58,8 +58,9 @@ pub struct Metadata {
     pub orientation: Option<u16>,
     /// Name of the program that wrote the file. Written files name this library.
     pub software: Option<String>,
-    /// Words about how this library made the picture, 1 to 256 printable letters of ASCII; others are neither read nor written.
-    /// Formats that name the program hold them behind its name.
+    /// Words about how this library made the picture, 1 to 256 printable letters of ASCII; others are not written. Formats that name the
+    /// program hold them behind its name. If that name, or a letter of the words, is damaged on its way, they are read together, with `?`
+    /// for what is no letter: not as they were written, but not as none.
     pub origin: Option<String>,
     /// Description of the stored codes where those that are read are others, such as "of 4 bits".
     pub rescaled: Option<String>,
@@ -95,14 +96,16 @@ fn is_origin(words: &str) -> bool {
     (1..=LONGEST_ORIGIN).contains(&words.len()) && words.chars().all(is_plain)
 }
 
+/// Letters of an origin, at most.
 const LONGEST_ORIGIN: usize = 256;
 
+/// Returns whether a letter is printable ASCII.
 fn is_plain(letter: char) -> bool {
     (' '..='~').contains(&letter)
 }
 
-/// Returns the origin in the name of the program that wrote a file. Of one that is ours but for a letter it is the whole name, which no
-/// reader takes for words as they were written: few formats have checksums of texts.
+/// Returns the words behind the name of the program that wrote a file. If the name is ours but for one letter, or the words are not as they may
+/// be, it returns name and words: few formats have checksums of texts, and damaged words are not the same as none.
 fn origin_of(software: &str) -> Option<String> {
     let words = software.strip_prefix(SOFTWARE).and_then(|rest| rest.strip_prefix(" (")?.strip_suffix(')'));
     match words {
@@ -132,6 +135,8 @@ impl Metadata {
     /// Returns the metadata of a file that names the program which wrote it.
     pub(crate) fn by(software: Option<String>) -> Self {
         let origin = software.as_deref().and_then(origin_of);
+        // A zero ends a name for other programs.
+        let software = software.and_then(|name| Some(name.split('\0').next()?.to_owned()));
         Self { software, origin, ..Self::default() }
     }
 

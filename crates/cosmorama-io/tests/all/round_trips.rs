@@ -387,6 +387,24 @@ fn origins_come_back() {
     }
 }
 
+/// A picture is the same file however often it is written.
+#[test]
+fn files_of_one_picture_are_alike() {
+    let remarks = ["first", "second", "third", "fourth", "fifth"].map(|name| Remark { name, text: name.into() });
+    let metadata = Metadata { remarks: remarks.into(), origin: Some("a, b".to_owned()), ..Metadata::default() };
+    let options = WriteOptions::with_metadata(metadata);
+    for (format, _) in EXTENSIONS {
+        let image = picture(8, 6, Channels::Rgb, format.nearest_depth(Depth::Float));
+        let file = || {
+            let mut file = Cursor::new(Vec::new());
+            write_to(&mut file, "a", format, &image, &options).unwrap();
+            file.into_inner()
+        };
+        let first = file();
+        assert!((0..20).all(|_| file() == first), "{format}");
+    }
+}
+
 /// A flipped bit in the name of the program, or in the words behind it, is seen: the words are others, but not none.
 #[test]
 fn damaged_origins_are_not_none() {

@@ -21,13 +21,10 @@ use cell::Pixel;
 use marks::Marks;
 use occlusion::grain;
 use small::Reflection;
-use tiles::Tile;
+use tiles::{SIDE, Tile};
 
 /// Middles of a square's quarters, in parts of its side.
 const QUARTERS: [(f64, f64); 4] = [(-0.25, -0.25), (0.25, -0.25), (-0.25, 0.25), (0.25, 0.25)];
-
-/// Number of tiles that threads work on together: enough for all of them, and little memory.
-const TILES: usize = 1024;
 
 /// Light beside the things.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,22 +78,24 @@ pub fn picture_over(
     // Things stay, and the camera turns the other way.
     let camera = &camera.turned(&behind.turn().transpose());
     let width = camera.width();
-    let tiles: Vec<Tile> = Tile::all(camera).collect();
-    let seen = tiles.par_iter().map(|tile| (*tile, tile.things(scene, camera)));
-    let seen: Vec<(Tile, Vec<usize>)> = seen.filter(|(_, things)| !things.is_empty()).collect();
     let reflection = |object: &Object| Reflection::of(object, camera, &worlds[object.parts.first()?.world]);
     let reflections: Vec<Option<Reflection>> = scene.objects.iter().map(reflection).collect();
     let marks = Marks::of(scene, camera);
     let pixel = Pixel { scene, camera, worlds, reflections: &reflections, marks: &marks, grain: grain(scene) };
-    // Pixels of so many tiles are kept beside the picture.
-    for some in seen.chunks(TILES) {
-        let made: Vec<([usize; 2], Rgba)> =
-            some.par_iter().flat_map_iter(|(tile, things)| pixel.tile(tile, things)).collect();
+    let rows = image.pixels_mut().par_chunks_mut((width * SIDE).max(1));
+    rows.enumerate().for_each(|(row, pixels)| {
+        let top = row * SIDE;
+        let tiles: Vec<Tile> = Tile::row(camera, top).collect();
+        let seen = |tile: &Tile| {
+            let things = tile.things(scene, camera);
+            if things.is_empty() { Vec::new() } else { pixel.tile(tile, &things) }
+        };
+        let made: Vec<([usize; 2], Rgba)> = tiles.par_iter().flat_map_iter(seen).collect();
         for ([i, j], thing) in made {
-            let behind = &mut image.pixels_mut()[j * width + i];
+            let behind = &mut pixels[(j - top) * width + i];
             *behind = thing.over(*behind);
         }
-    }
+    });
     Ok(image)
 }
 

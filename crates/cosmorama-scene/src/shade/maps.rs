@@ -113,8 +113,8 @@ impl LightMaps {
 /// Greatest edge of the faces of a cube of a world's light.
 const EDGE: usize = 256;
 
-/// Bytes of a texel of that cube, with the weights by which it is made.
-const CUBE_TEXEL: usize = 42;
+/// Bytes of a texel of that cube: its light, its solid angle, and its part of the weights by which it is made.
+const CUBE_TEXEL: usize = size_of::<Rgba>() + size_of::<f32>() + 22;
 
 impl LightMap {
     /// Returns a world's light on the faces of a cube, for what sees much of it at once: there an ellipse is an ellipse,

@@ -159,7 +159,9 @@ fn metadata(format: &Value) -> Vec<(String, String)> {
 }
 
 fn announced_by_duration(info: &VideoInfo) -> Option<Announced> {
-    let frames = (info.duration? * info.rate.to_f64()).round();
+    // What Matroska tells beyond whole frames is the sound before the first.
+    let part = if info.container.starts_with("matroska") { 0.25 } else { 0.5 };
+    let frames = (info.duration? * info.rate.to_f64() + part).floor();
     let is_told = !info.is_variable && info.rate.to_f64() < FASTEST && (1.0..1e12).contains(&frames);
     is_told.then_some(Announced { frames: frames as u64, by: AnnouncedBy::Duration })
 }

@@ -124,18 +124,20 @@ fn turn(value: &Value) -> Option<Turn> {
 }
 
 /// Returns the seconds of the stream: its own, or Matroska's tag such as `00:01:02.500000000`. As ffmpeg writes it, that is the time at
-/// which the last frame ends; longer sound begins before the first one.
+/// which the last frame ends, and the first may begin late, where the sound does before it. Statistics of mkvmerge count from the first frame.
 fn duration(value: &Value) -> Option<f64> {
     let own = text(value, "duration").and_then(|seconds| seconds.parse().ok());
     let start = text(value, "start_time").and_then(|seconds| seconds.parse::<f64>().ok()).unwrap_or(0.0);
     let tag = || {
         let tags = value["tags"].as_object()?;
+        let is_statistic = tags.keys().any(|name| name.starts_with("_STATISTICS"));
         let (_, text) = tags.iter().find(|(name, _)| name.eq_ignore_ascii_case("duration"))?;
         let end =
             text.as_str()?.trim().split(':').try_fold(0.0, |sum, part| Some(sum * 60.0 + part.parse::<f64>().ok()?));
-        Some(end? - start)
+        Some(if is_statistic { end? } else { end? - start })
     };
-    own.or_else(tag).filter(|seconds: &f64| seconds.is_finite() && *seconds > 0.0)
+    // Of a cut file, Matroska's own is that of all streams together.
+    tag().or(own).filter(|seconds: &f64| seconds.is_finite() && *seconds > 0.0)
 }
 
 /// Returns the container's own count, or that of Matroska's statistics.
@@ -249,5 +251,25 @@ fn projection(data: &Value, (width, height): (usize, usize)) -> Option<Spherical
         Some("cubemap") => Some(SphericalProjection::Cubemap { layout: 0, padding: number("padding") as u32 }),
         Some(_) => Some(SphericalProjection::Mesh),
         None => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn durations_of_matroska_are_those_of_the_frames() {
+        let of = |start: &str, tags: Value| duration(&json!({ "start_time": start, "tags": tags }));
+        let close = |found: Option<f64>| found.is_some_and(|seconds| (seconds - 2.0).abs() < 1e-9);
+        assert!(close(of("0.000000", json!({ "DURATION": "00:00:02.000000000" }))));
+        assert!(close(of("0.023000", json!({ "DURATION": "00:00:02.023000000" }))));
+        let statistics = json!({ "DURATION": "00:00:02.000000000", "_STATISTICS_WRITING_APP": "mkvmerge" });
+        assert!(close(of("0.500000", statistics)));
+        assert!(close(duration(&json!({ "duration": "2.0", "start_time": "0.5" }))));
+        assert!(close(duration(&json!({ "duration": "3.02", "tags": { "DURATION": "00:00:02.0" } }))));
+        assert_eq!(of("3.0", json!({ "DURATION": "00:00:02.0" })), None);
     }
 }

@@ -35,9 +35,6 @@ impl Lighting<'_> {
     }
 }
 
-/// Bytes of a pixel in lists of what is seen where.
-const LISTED: usize = 2;
-
 /// Returns the memory that pictures of things need with their tables of chrome, beside the things themselves and the program.
 pub(super) fn needed(scene: &Scene, lighting: &Lighting, shots: &[Shot], (frames, output): (usize, &Output)) -> u64 {
     let pixels = |shot: &Shot| shot.camera.width() * shot.camera.height();
@@ -45,7 +42,8 @@ pub(super) fn needed(scene: &Scene, lighting: &Lighting, shots: &[Shot], (frames
     // The picture, a sheet that it goes into, and what lies behind things that turn.
     let is_sheet = shots.iter().any(|shot| shot.place.is_some());
     let pictures = largest + if is_sheet { all } else { 0 } + if frames > 1 { all } else { 0 };
-    let pictures = pictures * size_of::<Rgba>() + all * output.pixel_bytes() + largest * LISTED;
-    let shaded = lighting.bytes() + scene.chrome_bytes() + pictures;
-    shaded.max(lighting.bytes_to_make()) as u64
+    let width = shots.iter().map(|shot| shot.place.as_ref().map_or(shot.camera.width(), |place| place.of.0)).max();
+    let shaded = lighting.bytes() + scene.chrome_bytes() + pictures * size_of::<Rgba>();
+    let shaded = shaded as u64 + output.bytes(all, width.unwrap_or(0));
+    shaded.max(lighting.bytes_to_make() as u64)
 }

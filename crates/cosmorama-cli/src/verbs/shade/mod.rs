@@ -58,7 +58,8 @@ pub(super) fn run(args: ShadeArgs, console: &mut Console) -> Result<ExitCode> {
     let filter =
         FilterSettings { kind: args.reflect.0, kernel: args.kernel.kernel, anti_ringing: args.kernel.anti_ringing };
     let lighting = Lighting { worlds: &lights, maps: &maps, filter };
-    let needed = needed(&things.scene, &lighting, &shots, (frames.len(), &output)).saturating_add(things.bytes);
+    let needed = pool.install(|| needed(&things.scene, &lighting, &shots, (frames.len(), &output)));
+    let needed = needed.saturating_add(things.bytes);
     let needed = MemoryBudget::new(args.limits.memory).check_things(needed, pool.current_num_threads())?;
     let surroundings = |number: usize| {
         let made = Surroundings::new(skies[number], &maps[number], filter).map_err(wrong)?;

@@ -1,7 +1,9 @@
 use std::path::Path;
+use std::sync::Arc;
 
 use anyhow::Result;
-use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Primaries, Rgba, Transfer};
+use cosmorama::raster::{Channels, Depth, EncodedImage, FramePool, Image, Primaries, Rgba, Transfer};
+use cosmorama_convert::{encoded_beside, packed_blocks};
 use cosmorama_io::{Format, Metadata, WriteOptions, write};
 
 use crate::args::{BackgroundName, ShadeArgs};
@@ -14,6 +16,8 @@ pub(super) struct Output {
     format: Format,
     depth: Depth,
     gain: f32,
+    /// Memory that the encoder takes again for the next picture.
+    pool: Arc<FramePool>,
 }
 
 /// Alpha from which a pixel counts as opaque: sums of coverages are rounded.
@@ -46,13 +50,14 @@ impl Output {
                 format!("--background: {} is {format}, which has no alpha; name the output .png or .exr", args.output);
             return Err(usage(message));
         }
-        Ok(Self { format, depth, gain: args.gain })
+        Ok(Self { format, depth, gain: args.gain, pool: Arc::default() })
     }
 
-    /// Returns the bytes of a pixel's samples, with the copy that OpenEXR sorts.
-    pub(super) fn pixel_bytes(&self) -> usize {
-        let copies = if self.format == Format::Exr { 2 } else { 1 };
-        copies * Channels::Rgba.count() * self.depth.bytes()
+    /// Returns the bytes of the samples of so many pixels, in rows of so many, with what encoders hold beside them.
+    pub(super) fn bytes(&self, pixels: usize, width: usize) -> u64 {
+        let pixel = (Channels::Rgba.count() * self.depth.bytes()) as u64;
+        let samples = pixels as u64 * pixel;
+        samples + encoded_beside(self.format, samples) + packed_blocks(self.format, samples, width as u64 * pixel)
     }
 
     /// Writes a picture. What the format cannot hold is told.
@@ -75,6 +80,7 @@ impl Output {
         self.tell_clipped((path, &image), console);
         let transfer = if self.depth.is_float() { Transfer::Linear } else { Transfer::Srgb };
         let encoded = EncodedImage::encode(&image, channels, self.depth, &transfer);
+        drop(image);
         let held = self.format.holds_primaries(&primaries).then_some(primaries);
         if held.is_none() && !primaries.is_same(&Primaries::REC709) {
             console.warning(format_args!(
@@ -84,7 +90,8 @@ impl Output {
             ));
         }
         let metadata = Metadata { transfer: Some(transfer), primaries: held, ..Metadata::default() };
-        let options = WriteOptions { unfinished: console.unfinished.clone(), ..WriteOptions::with_metadata(metadata) };
+        let (unfinished, pool) = (console.unfinished.clone(), self.pool.clone());
+        let options = WriteOptions { unfinished, pool, ..WriteOptions::with_metadata(metadata) };
         Ok(write(path, &encoded, &options)?)
     }
 

@@ -118,7 +118,7 @@ fn frames_by_other_settings_or_of_other_inputs_are_no_part_of_it() {
         std::fs::remove_file(bench.path(&format!("out_1.{end}"))).unwrap();
         bench.succeed(&resume);
         // A digit of a digest is damage, not other settings, and so is a bit of any letter, or of the program's name.
-        for (word, bit) in [("geometry ", 1), ("geome", 0x80), ("cosmorama", 0x10), ("cosmo", 0x80)] {
+        for (word, bit) in [("geometry ", 1), ("geome", 0x80), ("cosmorama", 0x10), ("cosmo", 0x80), (", chec", 0x80)] {
             let path = bench.path(&format!("out_2.{end}"));
             let mut file = std::fs::read(&path).unwrap();
             let behind = file.windows(word.len()).position(|found| found == word.as_bytes()).unwrap() + word.len();

@@ -58,8 +58,8 @@ struct Nanoseconds {
 }
 
 impl Nanoseconds {
-    /// Returns those of frames whose geometry is computed, too, as of tilted domes of 512² to 2048² from panoramas of 1024×512 and
-    /// 4096×2048 (docs/performance.md, "A moving camera").
+    /// Counts the geometry, too, which each frame of a moving camera has anew: figures of tilted domes of 512² to 2048² from panoramas of
+    /// 1024×512 and 4096×2048 (docs/performance.md, "A moving camera").
     fn with_geometry(self) -> Self {
         Self { pixel: 65.0, texel: 5.5, ..self }
     }
@@ -115,7 +115,7 @@ impl Explanation {
         let needs = FrameNeeds::of_pictures(input, worlds, (pixels, largest), held).with_prepared(prepared);
         let views = self.pictures().iter().map(|picture| &picture.view);
         let needs = needs.with_footprints(self.pool.install(|| footprint_bytes(self.filter.kind, input, views)));
-        let needs = needs.with_encoders_of(files.format());
+        let needs = self.pool.install(|| needs.with_encoders_of(files.format(), &sizes));
         let needs = if are_too_large(sizes.iter().copied()) { needs.by_strips(files.format(), &sizes) } else { needs };
         let plan = |report: &explain::Report| {
             if held == Held::INTEGERS { report.memory.fixed_plan } else { report.memory.plan }

@@ -102,6 +102,8 @@ pub(crate) struct FrameNeeds {
     encoded: u64,
     /// Bytes that encoders hold beside the samples of the pictures that they write.
     written: u64,
+    /// Blocks that threads pack, of whichever pictures.
+    blocks: u64,
     /// Whether the pictures are made strip by strip.
     is_by_strips: bool,
 }
@@ -155,6 +157,7 @@ impl FrameNeeds {
             looked_at: looked_at_bytes(input),
             encoded: pixels.saturating_mul(held.encoded),
             written: 0,
+            blocks: 0,
             is_by_strips: false,
         };
         needs.beside_tables(input.views().map(|view| &view.nominal))
@@ -170,7 +173,7 @@ impl FrameNeeds {
         Self { footprints: bytes, ..self }
     }
 
-    /// Adds masks of views of these sizes, whose every pixel may be another.
+    /// Adds masks of views of these sizes, none of whose pixels is as the one beside it.
     pub(crate) fn with_masks(self, views: impl Iterator<Item = (usize, usize)>) -> Self {
         Self { masks: pixels_in(views).saturating_mul(MASK), ..self }
     }
@@ -180,14 +183,12 @@ impl FrameNeeds {
         Self { prepared: self.prepared.saturating_add(bytes), ..self }
     }
 
-    /// Adds what encoders of a format hold beside samples: OpenEXR sorts them by channel, and a JPEG is encoded as a whole.
-    pub(crate) fn with_encoders_of(self, format: Format) -> Self {
-        let written = match format {
-            Format::Exr => self.samples_of_pictures(),
-            Format::Jpeg => self.samples_of_pictures() / 2,
-            _ => 0,
-        };
-        Self { written, ..self }
+    /// Adds what encoders of a format hold beside samples of pictures of these sizes.
+    pub(crate) fn with_encoders_of(self, format: Format, sizes: &[(usize, usize)]) -> Self {
+        let samples = self.samples_of_pictures();
+        let pixel = samples / pixels_in(sizes.iter().copied()).max(1);
+        let row = sizes.iter().map(|(width, _)| *width as u64).max().unwrap_or(0).saturating_mul(pixel);
+        Self { written: encoded_beside(format, samples), blocks: packed_blocks(format, samples, row), ..self }
     }
 
     /// Returns the bytes of the samples of the pictures: integers are samples themselves.
@@ -257,7 +258,7 @@ impl FrameNeeds {
         let (first, last) = (sum([all, scratch.max(self.light.min(band))]), sum([self.light, all.min(band)]));
         let filtered = sum([self.light, self.prepared, self.pictures, self.piece, self.footprints, self.masks]);
         let looked_at = self.light.saturating_add(self.looked_at);
-        let written = sum([self.pictures, self.encoded]);
+        let written = sum([self.pictures, self.encoded, self.blocks]);
         self.shared.saturating_add(first.max(last).max(looked_at).max(filtered).max(written))
     }
 
@@ -268,7 +269,7 @@ impl FrameNeeds {
         let made = sum([self.pictures, self.encoded, self.written]);
         let written = self.samples_of_pictures().saturating_add(self.written);
         let filtered = sum([self.prepared, self.piece, self.footprints, self.masks]);
-        let once = sum([scratch, self.light, filtered.max(self.looked_at)]);
+        let once = sum([scratch, self.light, filtered.max(self.looked_at), self.blocks]);
         FrameMemory { all: sum([all, once, made]), read: moving, written }
     }
 
@@ -336,7 +337,8 @@ impl ConvertJob {
         let is_one = self.input.frames.len() <= 1 && !self.outputs.are_many();
         let needs = if is_one { needs } else { needs.of_many() };
         let views = self.target.views.iter().map(|target| &target.view);
-        let needs = needs.with_footprints(self.footprints).with_encoders_of(self.target.format);
+        let sizes: Vec<_> = self.target.files.iter().flat_map(|file| file.levels()).map(|sheet| sheet.size).collect();
+        let needs = needs.with_footprints(self.footprints).with_encoders_of(self.target.format, &sizes);
         let needs = if self.has_masks() { needs.with_masks(views.map(size_of_view)) } else { needs };
         let needs = if self.is_by_strips() { needs.by_strips_of(&self.target) } else { needs };
         if self.content == Content::StMap { needs.without_light(self.decoded.looked_at()) } else { needs }
@@ -350,11 +352,14 @@ impl ConvertJob {
         footprint_bytes(self.filter.kind, &self.input, views)
     }
 
-    /// Returns whether masks of its views take memory: those of what no view of the input covers do where it ends in most pixels, as it may
-    /// by masks of its own, or between many views. Others take next to none.
+    /// Returns whether the masks of what no view of the input covers take memory. They do where the world may end in any pixel: views with
+    /// masks of their own, maps, and many views with gaps. Others take next to none.
     fn has_masks(&self) -> bool {
         const MANY: usize = 100;
-        let is_torn = self.input.views().nth(MANY).is_some() || self.input.views().any(|view| view.mask.is_some());
+        let is_map = |view: &View| matches!(view.projection, ProjectionKind::StMap(_));
+        let is_torn = |view: &InputView| view.mask.is_some() || is_map(&view.nominal);
+        let is_torn = self.input.views().any(is_torn) || self.target.views.iter().any(|target| is_map(&target.view));
+        let is_torn = is_torn || self.input.views().nth(MANY).is_some();
         is_torn && self.lighting.is_none() && self.content == Content::World && !self.is_complete()
     }
 
@@ -451,6 +456,26 @@ const MASK: u64 = 12;
 
 /// Bytes of blocks and copies that a decoder holds, at most.
 const MOST_SCRATCH: u64 = 72 << 20;
+
+/// Returns the bytes that an encoder holds beside a picture's samples: OpenEXR sorts them by channel, and a JPEG is encoded as a whole.
+pub fn encoded_beside(format: Format, samples: u64) -> u64 {
+    match format {
+        Format::Exr => samples,
+        Format::Jpeg => samples / 2,
+        _ => 0,
+    }
+}
+
+/// Returns the bytes of the blocks that all threads pack, of a picture with so many bytes of samples in all and in a row. Those of OpenEXR
+/// have 16 rows; each is there as samples, in their order, in the file's, as differences, and packed, and some wait to be written.
+pub fn packed_blocks(format: Format, samples: u64, row: u64) -> u64 {
+    const COPIES: u64 = 6;
+    if format != Format::Exr {
+        return 0;
+    }
+    let threads = rayon::current_num_threads() as u64;
+    row.saturating_mul(16 * COPIES).saturating_mul(threads).min(samples.saturating_mul(3))
+}
 
 /// Returns the memory of the program without its pictures, of which so many bytes are made. Threads take no more than there is to make.
 pub(crate) fn program_bytes(threads: usize, made: u64) -> u64 {

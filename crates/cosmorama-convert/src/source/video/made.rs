@@ -115,9 +115,9 @@ impl MadeVideos {
         let frames = plan.source.as_ref().map(|source| &source.frames[..]);
         let source =
             info.as_ref().zip(frames).map(|(info, frames)| Shown { info, frames, timeline: timeline.as_ref() });
-        // Netpbm's streams name none.
-        let names_rate = |(path, _): &(PathBuf, _)| !matches!(RawKind::of(path), Some(RawKind::Pam | RawKind::Pfm));
-        let names_rate = outputs.iter().any(names_rate);
+        // Netpbm's streams name no rate.
+        let is_netpbm = |path: &Path| matches!(RawKind::of(path), Some(RawKind::Pam | RawKind::Pfm));
+        let names_rate = outputs.iter().any(|(path, _)| !is_netpbm(path));
         let (times, stamps) = times((rate, plan, names_rate), source, told);
         let mut all = Vec::new();
         for (path, size) in outputs {

@@ -3,6 +3,7 @@
 mod attributes;
 mod colour;
 mod dwa;
+mod in_order;
 mod offer;
 mod planes;
 mod reader;

@@ -34,8 +34,10 @@ pub(super) const MARK: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
 /// Bytes of the mark, the version and its flags.
 const START: usize = 8;
 
-/// Greatest number of chunks that are decompressed together by each thread: more would only take memory, which stays with the program.
-const BATCH: usize = 4;
+/// Greatest number of chunks that each thread decompresses at once, and that all do together: more would only take memory, which stays with
+/// the program.
+const BATCH: usize = 2;
+const MOST_BATCHED: usize = 64;
 /// Bytes of these chunks together; a single chunk may have more.
 pub(super) const BATCH_BYTES: u128 = 1 << 26;
 
@@ -350,7 +352,8 @@ pub(super) fn each_block(
     };
     let block_bytes = block_bytes(&reader.headers()[part]).max(1);
     let mut chunks = reader.filter_chunks(false, wanted)?;
-    let most = if is_beside_others() { BATCH } else { BATCH * rayon::current_num_threads() };
+    let threads = if is_beside_others() { 1 } else { rayon::current_num_threads() };
+    let most = threads.saturating_mul(BATCH).min(MOST_BATCHED);
     let batch_size = (at_once / block_bytes).clamp(1, most as u128) as usize;
     loop {
         let batch = chunks.by_ref().take(batch_size).collect::<Result<Vec<Chunk>, Error>>()?;

@@ -18,6 +18,7 @@ use exr::prelude::SmallVec;
 use half::f16;
 use rayon::prelude::*;
 
+use super::in_order::InOrder;
 use super::{attributes, colour};
 use crate::codec::interface::is_beside_others;
 use crate::header::visit;
@@ -81,7 +82,7 @@ fn write_parts<P: Send>(
 ) -> Result<(), IoError> {
     let described = described(path, (size, Blocks::ScanLines), form, options)?;
     let headers = described.write().infer_meta_data();
-    let written = exr::block::write(output, headers, false, |meta, chunks| {
+    let written = exr::block::write(InOrder::new(output), headers, false, |meta, chunks| {
         let mut blocks = enumerate_ordered_header_block_indices(&meta.headers).peekable();
         let mut top = 0;
         visit(0..size.1, at_once.next_multiple_of(BLOCK), make, |part| {
@@ -299,9 +300,9 @@ fn save<S: for<'s> WritableSamples<'s> + 'static>(
     let writer = picture.write().skip_compatibility_checks();
     // The encoder has threads of its own. They are used if this thread works alone and there are several cores.
     let written = if rayon::current_num_threads() > 1 && !is_beside_others() {
-        writer.to_buffered(output)
+        writer.to_buffered(InOrder::new(output))
     } else {
-        writer.non_parallel().to_buffered(output)
+        writer.non_parallel().to_buffered(InOrder::new(output))
     };
     written.map_err(|error| IoError::write(path, error))?;
     Ok(picture.layer_data.channel_data.list)

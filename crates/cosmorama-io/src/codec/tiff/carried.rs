@@ -35,9 +35,10 @@ pub(super) fn read<R: Read + Seek>(decoder: &mut Decoder<R>) -> Found {
     let mut found = Found::default();
     let mut fields = Vec::new();
     let mut own = decoder.image_ifd();
-    found.fields(&mut own, Context::Tiff, &mut fields);
-    let software = found.bytes(&mut own, Tag::Software);
+    // First, since all values share a limit.
+    let software = found.bytes(&mut own, Tag::Software).filter(|(kind, _)| *kind == Type::ASCII.to_u16());
     found.software = software.map(|(_, name)| String::from_utf8_lossy(&name).trim_end_matches('\0').to_owned());
+    found.fields(&mut own, Context::Tiff, &mut fields);
     if let Some((_, packet)) = found.bytes(&mut own, XMP) {
         let added = found.carried.add_xmp(&packet);
         found.complaints.extend(added.err().map(|reason| format!("its XMP metadata are left out: {reason}")));

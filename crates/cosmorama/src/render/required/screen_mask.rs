@@ -41,32 +41,44 @@ const BAND_ROWS: usize = 32;
 impl ScreenMask {
     /// Makes the mask of a target in a world.
     pub fn new(world: &World, target: &View) -> Self {
-        let bands = (0..target.height()).step_by(BAND_ROWS).collect::<Vec<_>>().into_par_iter();
+        let bands = (0..target.height()).into_par_iter().step_by(BAND_ROWS);
         Self { rows: bands.flat_map_iter(|first| Self::band(world, target, first)).collect() }
     }
 
-    /// Makes rows of a mask, from the first of them on.
+    /// Makes the rows of a band, whose first is given. Three rows of centres are held.
     fn band(world: &World, target: &View, first: usize) -> Vec<Row> {
         let (width, height) = (target.width(), target.height());
-        let above = first.saturating_sub(1);
-        let below = height.min(first + BAND_ROWS + 1);
-        let places = (above..below).flat_map(|j| (0..width).map(move |i| (i, j)));
-        let centres: Vec<MaskPixel> = places.map(|place| MaskPixel::of_centre(world, target, place)).collect();
-        let pixel = |i: usize, j: usize| {
-            let place = (i, j - above);
-            let pixel = centres[place.1 * width + place.0];
-            // Where the world ends in a pixel, the centre of a neighbour lies on the other side.
-            let mut neighbours = around(&centres, width, place).filter(|other| other.coverage > 0.0);
-            if pixel.coverage > 0.0 && neighbours.any(|other| other.seen != pixel.seen) {
-                MaskPixel { seen: seen_part(world, target, (i, j)).unwrap_or(pixel.seen), ..pixel }
-            } else {
-                pixel
-            }
+        let centres = |j: Option<usize>| -> Vec<MaskPixel> {
+            let row = j.filter(|j| *j < height).into_iter();
+            row.flat_map(|j| (0..width).map(move |i| MaskPixel::of_centre(world, target, (i, j)))).collect()
         };
-        (first..height.min(first + BAND_ROWS)).map(|j| Row::of((0..width).map(|i| pixel(i, j)))).collect()
+        let mut near = [centres(first.checked_sub(1)), centres(Some(first)), Vec::new()];
+        let mut rows = Vec::new();
+        for j in first..height.min(first + BAND_ROWS) {
+            near[2] = centres(Some(j + 1));
+            rows.push(Row::of((0..width).map(|i| Self::pixel((world, target), &near, (i, j)))));
+            near.rotate_left(1);
+        }
+        rows
+    }
+
+    /// Makes a pixel of a row, by the centres of the row above it, of its own and of the row below.
+    fn pixel((world, target): (&World, &View), near: &[Vec<MaskPixel>; 3], (i, j): (usize, usize)) -> MaskPixel {
+        let pixel = near[1][i];
+        let columns = i.saturating_sub(1)..target.width().min(i + 2);
+        // Where the world ends in a pixel, the centre of a neighbour lies on the other side.
+        let mut neighbours = near.iter().filter_map(|row| row.get(columns.clone())).flatten();
+        if pixel.coverage > 0.0 && neighbours.any(|other| other.coverage > 0.0 && other.seen != pixel.seen) {
+            MaskPixel { seen: seen_part(world, target, (i, j)).unwrap_or(pixel.seen), ..pixel }
+        } else {
+            pixel
+        }
     }
 
     /// Lays a colour where no view covers the pixels: see [`Self::fill_by`].
+    ///
+    /// # Panics
+    /// When the picture has other rows than the mask's target.
     pub fn fill_unseen(&self, image: &mut Image<Rgba>, colour: Rgba) {
         self.fill_by(image, |_, _| colour);
     }
@@ -74,6 +86,9 @@ impl ScreenMask {
     /// Lays light, by column and row, where no view covers the pixels. Pixels in which the world ends keep their own as far
     /// as it is seen, so that its border is smooth. Those that a filter has left empty, since their centres are outside,
     /// take the mean of their neighbours inside.
+    ///
+    /// # Panics
+    /// When the picture has other rows than the mask's target.
     pub fn fill_by(&self, image: &mut Image<Rgba>, light: impl Fn(usize, usize) -> Rgba + Sync) {
         let is_left = |(pixel, mask): (&Rgba, MaskPixel)| pixel.alpha() == 0.0 && mask.seen > 0.0 && mask.seen < 0.5;
         let pixels = self.rows.iter().flat_map(Row::pixels);
@@ -81,13 +96,23 @@ impl ScreenMask {
         let left: Vec<usize> = both.filter(|(_, both)| is_left(*both)).map(|(index, _)| index).collect();
         let taken: Vec<Rgba> = left.iter().map(|&index| self.mean_inside(image, index)).collect();
         left.iter().zip(taken).for_each(|(&index, mean)| image.pixels_mut()[index] = mean);
-        rows_of(image).zip(&self.rows).enumerate().for_each(|(j, (row, masks))| {
+        self.rows_of(image).enumerate().for_each(|(j, (row, masks))| {
             for (i, (pixel, mask)) in row.iter_mut().zip(masks.pixels()).enumerate() {
                 if mask.seen < 1.0 && mask.coverage > 0.0 {
                     *pixel = *pixel * mask.seen + light(i, j) * (mask.coverage * (1.0 - mask.seen));
                 }
             }
         });
+    }
+
+    /// Returns the rows of a picture with those of the mask.
+    fn rows_of<'a>(
+        &'a self,
+        image: &'a mut Image<Rgba>,
+    ) -> impl IndexedParallelIterator<Item = (&'a mut [Rgba], &'a Row)> {
+        assert_eq!(image.height(), self.rows.len(), "a picture of the mask's target");
+        let width = image.width().max(1);
+        image.pixels_mut().par_chunks_mut(width).zip(&self.rows)
     }
 
     /// Returns the mean of the pixels around one whose centres the world covers.
@@ -106,10 +131,13 @@ impl ScreenMask {
     /// Repairs pixels with missing (NaN) texels in opaque worlds. What is left of a pixel is scaled to full coverage. A
     /// pixel with next to nothing left takes its neighbours' mean, or `fill` if those have none. Returns the number
     /// filled.
+    ///
+    /// # Panics
+    /// When the picture has other rows than the mask's target.
     pub fn close_holes(&self, image: &mut Image<Rgba>, fill: Rgba) -> usize {
         // Least part of a pixel that counts. Less is noise, which negative lobes leave beside a hole.
         const ENOUGH: f32 = 0.05;
-        rows_of(image).zip(&self.rows).for_each(|(row, masks)| {
+        self.rows_of(image).for_each(|(row, masks)| {
             for (pixel, mask) in row.iter_mut().zip(masks.pixels()) {
                 if pixel.alpha() > ENOUGH * mask.coverage {
                     *pixel = *pixel * (mask.coverage / pixel.alpha());
@@ -146,14 +174,18 @@ impl ScreenMask {
 
     /// Lays a colour outside the field of view. It also goes behind the pixels that the edge cuts, as far as they lie
     /// outside.
+    ///
+    /// # Panics
+    /// When the picture has other rows than the mask's target.
     pub fn surround(&self, image: &mut Image<Rgba>, colour: Rgba) {
-        rows_of(image).zip(&self.rows).for_each(|(row, masks)| {
+        self.rows_of(image).for_each(|(row, masks)| {
             row.iter_mut().zip(masks.pixels()).for_each(|(pixel, mask)| *pixel += colour * (1.0 - mask.coverage));
         });
     }
 }
 
 impl Row {
+    /// Joins equal pixels that lie side by side.
     fn of(pixels: impl Iterator<Item = MaskPixel>) -> Self {
         let mut runs: Vec<Run> = Vec::new();
         for (pixel, end) in pixels.zip(1..) {
@@ -166,6 +198,7 @@ impl Row {
         Self(runs)
     }
 
+    /// Returns the pixels one by one.
     fn pixels(&self) -> impl Iterator<Item = MaskPixel> {
         let starts = [0].into_iter().chain(self.0.iter().map(|run| run.end));
         self.0.iter().zip(starts).flat_map(|(run, start)| repeat_n(run.pixel, (run.end - start) as usize))
@@ -178,22 +211,17 @@ impl Row {
 }
 
 impl MaskPixel {
-    /// Returns a pixel which the world covers wholly or not at all, as it does its centre.
+    /// Returns a pixel that is judged by its centre alone: the world covers all of it or nothing.
     fn of_centre(world: &World, target: &View, (i, j): (usize, usize)) -> Self {
         let Some(screen) = target.screen_pixel(i, j) else { return Self::default() };
         let is_seen = world.owner(screen.footprint.direction).is_some();
         Self { coverage: screen.coverage as f32, seen: if is_seen { 1.0 } else { 0.0 } }
     }
 
-    /// Returns whether the world is in the field of view here.
+    /// Returns whether some of the pixel is in the field of view, and the world covers at least half of that.
     fn is_shown(self) -> bool {
         self.coverage > 0.0 && self.seen >= 0.5
     }
-}
-
-fn rows_of(image: &mut Image<Rgba>) -> impl IndexedParallelIterator<Item = &mut [Rgba]> {
-    let width = image.width().max(1);
-    image.pixels_mut().par_chunks_mut(width)
 }
 
 /// Returns the part of a pixel's field of view that the world covers; `None` where nothing of the field is sampled.
@@ -304,7 +332,7 @@ mod tests {
     fn a_mask_takes_little_memory() {
         let (world, _) = front_and_fisheye();
         for size in [40, 300] {
-            let target = View { ..CameraModel::Fisheye(FisheyeCamera::default()).view(size, size).unwrap() };
+            let target = CameraModel::Fisheye(FisheyeCamera::default()).view(size, size).unwrap();
             let mask = ScreenMask::new(&world, &target);
             let runs: usize = mask.rows.iter().map(|row| row.0.len()).sum();
             assert!((size..12 * size).contains(&runs), "{runs} runs of {size}");

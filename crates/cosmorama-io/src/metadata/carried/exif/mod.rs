@@ -83,7 +83,7 @@ impl Exif {
         let own = |field: &Field| field.tag == Tag::Software && field.ifd_num == In::PRIMARY;
         let field = self.fields().into_iter().find(own)?;
         let Value::Ascii(texts) = field.value else { return None };
-        // Zeros end texts; one within the name is damage.
+        // With all that is behind a zero, which may be a damaged letter.
         (!texts.is_empty()).then(|| String::from_utf8_lossy(&texts.join(&0)).trim_end_matches('\0').to_owned())
     }
 
