@@ -183,11 +183,13 @@ mod tests {
     }
 
     /// Variable of the environment by which a process that runs [`ends`] is told how.
+    #[cfg(target_os = "linux")]
     const ENDING: &str = "COSMORAMA_TEST_ENDING";
 
     /// Ends the process that the next test starts, in the way that it says.
     #[test]
     #[ignore = "ends the process"]
+    #[cfg(target_os = "linux")]
     fn ends() {
         let Ok(way) = std::env::var(ENDING) else { return };
         end_where_memory_lacks();
