@@ -43,7 +43,13 @@ impl Ffmpeg {
             is_video(found) && stream.is_none_or(|index| found["index"].as_u64() == Some(u64::from(index)))
         };
         let number = streams.iter().position(is_chosen).ok_or_else(no_video)?;
-        let stream = Stream::read(path, &streams[number])?;
+        let unknown = |error| match cut {
+            Some(CutShort { expected, found }) => {
+                VideoError::Cut { path: path.to_owned(), expected, found, is_described: false }
+            }
+            None => error,
+        };
+        let stream = Stream::read(path, &streams[number]).map_err(unknown)?;
         let format = &document["format"];
         let others = streams.iter().enumerate().filter(|(index, _)| *index != number);
         let others = others.map(|(_, stream)| other(stream)).collect::<Vec<_>>();
