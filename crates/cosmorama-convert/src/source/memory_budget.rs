@@ -25,6 +25,11 @@ const DEFAULT_PART: f64 = 0.75;
 /// Assumed free memory where the system does not report it.
 const UNKNOWN_FREE: u64 = 4 << 30;
 
+/// Returns the bytes in which an st map of so many is read: the file's samples, its numbers, and its tables, which are gathered from parts.
+pub(crate) fn reading_bytes(map: u64) -> u64 {
+    map.saturating_mul(13) / 4
+}
+
 impl MemoryBudget {
     /// Returns the requested limit, or three quarters of free memory; never more than the machine has.
     pub fn new(asked: Option<MemorySize>) -> Self {
@@ -47,12 +52,14 @@ impl MemoryBudget {
         self.allow(needed, "a mask", &format!("; it has {width}x{height} pixels"))
     }
 
-    /// Checks that the table of an st map of this size fits together with the map's own values.
+    /// Checks that an st map of this size can be read.
     pub(crate) fn check_table(self, file: &Path, size: (usize, usize), has_places: bool) -> Result<()> {
         let (width, height) = size;
-        let numbers = (size_of::<[f32; 2]>() as u64).saturating_mul(width as u64).saturating_mul(height as u64);
-        let needed = StMapTable::bytes(size, has_places).saturating_add(numbers);
-        self.allow(needed, "an st map", &format!("; {} has {width}x{height} pixels", file.display()))
+        self.allow(
+            reading_bytes(StMapTable::bytes(size, has_places)),
+            "an st map",
+            &format!("; {} has {width}x{height} pixels", file.display()),
+        )
     }
 
     /// Checks that two pictures fit, with the copies that a comparison needs, before memory is allocated.

@@ -19,7 +19,7 @@ use crate::detect::disc;
 use crate::input::{Input, InputView};
 use crate::job::gaps::Shot;
 use crate::job::{Content, ConvertJob, FrameMemory};
-use crate::source::memory_budget::{area, read_bytes};
+use crate::source::memory_budget::{area, read_bytes, reading_bytes};
 use crate::target::{Sheet, Strip, Target, TargetView};
 
 pub(crate) use footprint::footprint_bytes;
@@ -104,6 +104,8 @@ pub(crate) struct FrameNeeds {
     written: u64,
     /// Blocks that threads pack, of whichever pictures.
     blocks: u64,
+    /// Bytes in which the largest st map is read, before any frame.
+    maps: u64,
     /// Whether the pictures are made strip by strip.
     is_by_strips: bool,
 }
@@ -158,6 +160,7 @@ impl FrameNeeds {
             encoded: pixels.saturating_mul(held.encoded),
             written: 0,
             blocks: 0,
+            maps: 0,
             is_by_strips: false,
         };
         needs.beside_tables(input.views().map(|view| &view.nominal))
@@ -165,7 +168,11 @@ impl FrameNeeds {
 
     /// Adds the tables of views' projections.
     fn beside_tables<'v>(self, views: impl Iterator<Item = &'v View>) -> Self {
-        Self { shared: views.map(table_bytes).fold(self.shared, u64::saturating_add), ..self }
+        views.filter(|view| is_map(view)).fold(self, |needs, view| Self {
+            shared: needs.shared.saturating_add(table_bytes(view)),
+            maps: needs.maps.max(reading_bytes(map_bytes(view))),
+            ..needs
+        })
     }
 
     /// Adds the weights of the texels under the largest pixels.
@@ -259,7 +266,7 @@ impl FrameNeeds {
         let filtered = sum([self.light, self.prepared, self.pictures, self.piece, self.footprints, self.masks]);
         let looked_at = self.light.saturating_add(self.looked_at);
         let written = sum([self.pictures, self.encoded, self.blocks]);
-        self.shared.saturating_add(first.max(last).max(looked_at).max(filtered).max(written))
+        self.shared.saturating_add(first.max(last).max(looked_at).max(filtered).max(written)).max(self.maps)
     }
 
     /// Returns the bytes of a frame of a sequence, without what all share: the next one is read, and the one before written, while it
@@ -356,7 +363,6 @@ impl ConvertJob {
     /// masks of their own, maps, and many views with gaps. Others take next to none.
     fn has_masks(&self) -> bool {
         const MANY: usize = 100;
-        let is_map = |view: &View| matches!(view.projection, ProjectionKind::StMap(_));
         let is_torn = |view: &InputView| view.mask.is_some() || is_map(&view.nominal);
         let is_torn = self.input.views().any(is_torn) || self.target.views.iter().any(|target| is_map(&target.view));
         let is_torn = is_torn || self.input.views().nth(MANY).is_some();
@@ -517,10 +523,20 @@ fn looked_at_bytes(input: &Input) -> u64 {
 
 /// Returns the bytes of tables that a view's projection holds.
 fn table_bytes(view: &View) -> u64 {
+    // The parts of which a map was gathered stay with the program, and holes tear it into small pieces.
+    map_bytes(view).saturating_mul(9) / 4
+}
+
+/// Returns the bytes of a view's st map by itself.
+fn map_bytes(view: &View) -> u64 {
     match &view.projection {
         ProjectionKind::StMap(map) => map.bytes(),
         _ => 0,
     }
+}
+
+fn is_map(view: &View) -> bool {
+    matches!(view.projection, ProjectionKind::StMap(_))
 }
 
 /// Returns the bytes of blocks and copies that a file's decoder holds.
