@@ -182,16 +182,9 @@ mod tests {
         assert!(list.iter().copied().eq(numbers(99)));
     }
 
-    /// Variable of the environment by which a process that runs [`ends`] is told how.
+    /// Ends this process in a way.
     #[cfg(target_os = "linux")]
-    const ENDING: &str = "COSMORAMA_TEST_ENDING";
-
-    /// Ends the process that the next test starts, in the way that it says.
-    #[test]
-    #[ignore = "ends the process"]
-    #[cfg(target_os = "linux")]
-    fn ends() {
-        let Ok(way) = std::env::var(ENDING) else { return };
+    fn end(way: &str) {
         end_where_memory_lacks();
         if way == "memory" {
             drop(std::hint::black_box(Vec::<u64>::with_capacity(isize::MAX as usize / 16)));
@@ -202,9 +195,15 @@ mod tests {
     #[test]
     #[cfg(target_os = "linux")]
     fn only_a_lack_of_memory_ends_the_program_with_an_exit_code_where_it_is_aborted() {
+        const NAME: &str = "only_a_lack_of_memory_ends_the_program_with_an_exit_code_where_it_is_aborted";
+        const ENDING: &str = "COSMORAMA_TEST_ENDING";
+        // The processes that this test starts are itself, and are told so.
+        if let Ok(way) = std::env::var(ENDING) {
+            end(&way);
+        }
         for (way, code) in [("memory", Some(1)), ("signal", None)] {
             let mut this = std::process::Command::new(std::env::current_exe().unwrap());
-            this.args(["--exact", "allocator::tests::ends", "--ignored", "--nocapture"]);
+            this.args(["--exact", &format!("{}::{NAME}", module_path!().split_once("::").unwrap().1), "--nocapture"]);
             this.env(ENDING, way).env("RUST_BACKTRACE", "1");
             let ended = this.output().unwrap();
             let said = String::from_utf8_lossy(&ended.stderr).into_owned();

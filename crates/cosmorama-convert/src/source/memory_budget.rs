@@ -26,7 +26,7 @@ const DEFAULT_PART: f64 = 0.75;
 const UNKNOWN_FREE: u64 = 4 << 30;
 
 /// Returns the bytes in which an st map of so many is read: the file's samples, its numbers, and its tables, which are gathered from parts.
-pub(crate) fn reading_bytes(map: u64) -> u64 {
+pub(crate) fn map_reading_bytes(map: u64) -> u64 {
     map.saturating_mul(13) / 4
 }
 
@@ -56,7 +56,7 @@ impl MemoryBudget {
     pub(crate) fn check_table(self, file: &Path, size: (usize, usize), has_places: bool) -> Result<()> {
         let (width, height) = size;
         self.allow(
-            reading_bytes(StMapTable::bytes(size, has_places)),
+            map_reading_bytes(StMapTable::bytes(size, has_places)),
             "an st map",
             &format!("; {} has {width}x{height} pixels", file.display()),
         )

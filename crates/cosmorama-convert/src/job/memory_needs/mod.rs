@@ -19,7 +19,7 @@ use crate::detect::disc;
 use crate::input::{Input, InputView};
 use crate::job::gaps::Shot;
 use crate::job::{Content, ConvertJob, FrameMemory};
-use crate::source::memory_budget::{area, read_bytes, reading_bytes};
+use crate::source::memory_budget::{area, map_reading_bytes, read_bytes};
 use crate::target::{Sheet, Strip, Target, TargetView};
 
 pub(crate) use footprint::footprint_bytes;
@@ -170,7 +170,7 @@ impl FrameNeeds {
     fn beside_tables<'v>(self, views: impl Iterator<Item = &'v View>) -> Self {
         views.filter(|view| is_map(view)).fold(self, |needs, view| Self {
             shared: needs.shared.saturating_add(table_bytes(view)),
-            maps: needs.maps.max(reading_bytes(map_bytes(view))),
+            maps: needs.maps.max(map_reading_bytes(map_bytes(view))),
             ..needs
         })
     }
