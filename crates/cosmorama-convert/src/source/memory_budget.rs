@@ -25,9 +25,10 @@ const DEFAULT_PART: f64 = 0.75;
 /// Assumed free memory where the system does not report it.
 const UNKNOWN_FREE: u64 = 4 << 30;
 
-/// Returns the bytes in which an st map of so many is read: the file's samples, its numbers, and its tables, which are gathered from parts.
+/// Returns the bytes in which an st map of so many is read: first the file's samples and its numbers, then the map and what its trees
+/// are made of.
 pub(crate) fn map_reading_bytes(map: u64) -> u64 {
-    map.saturating_mul(13) / 4
+    map.saturating_mul(8) / 5
 }
 
 impl MemoryBudget {
@@ -52,11 +53,11 @@ impl MemoryBudget {
         self.allow(needed, "a mask", &format!("; it has {width}x{height} pixels"))
     }
 
-    /// Checks that an st map of this size can be read.
+    /// Checks that an st map of this size can be read, in however many pieces it is.
     pub(crate) fn check_table(self, file: &Path, size: (usize, usize), has_places: bool) -> Result<()> {
         let (width, height) = size;
         self.allow(
-            map_reading_bytes(StMapTable::bytes(size, has_places)),
+            map_reading_bytes(StMapTable::bytes_at_most(size, has_places)),
             "an st map",
             &format!("; {} has {width}x{height} pixels", file.display()),
         )

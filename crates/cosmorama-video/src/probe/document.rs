@@ -6,7 +6,7 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::first_frame::FirstFrame;
-use super::stream::{Stream, text};
+use super::stream::{Stream, ratio, text};
 use super::timeline::PATIENCE;
 use super::{Announced, AnnouncedBy, CutShort, OtherStream, StreamKind, VideoInfo, is_boxes, structure};
 use crate::ffmpeg::Said;
@@ -36,13 +36,16 @@ impl Ffmpeg {
         let cut = looked_at(path)?;
         let said =
             self.ffprobe(path, &["-of", "json", "-show_format", "-show_streams", "-show_chapters"], ANSWER, PATIENCE)?;
-        let document = document(path, &said, cut)?;
-        let streams = document["streams"].as_array().map(Vec::as_slice).unwrap_or_default();
+        let mut document = document(path, &said, cut)?;
         let no_video = || VideoError::NoVideo { path: path.to_owned(), reason: "it has no stream of video".to_owned() };
         let is_chosen = |found: &Value| {
             is_video(found) && stream.is_none_or(|index| found["index"].as_u64() == Some(u64::from(index)))
         };
-        let number = streams.iter().position(is_chosen).ok_or_else(no_video)?;
+        let number = streams(&document).iter().position(is_chosen).ok_or_else(no_video)?;
+        if cut.is_some() && text(&document["format"], "format_name").is_some_and(is_matroska) {
+            self.find_start(path, &mut document["streams"][number]);
+        }
+        let streams = streams(&document);
         let unknown = |error| match cut {
             Some(CutShort { expected, found }) => {
                 VideoError::Cut { path: path.to_owned(), expected, found, is_described: false }
@@ -67,10 +70,21 @@ impl Ffmpeg {
         Ok(info)
     }
 
+    /// Replaces the start of a cut stream of Matroska by that of its first frame: ffprobe guesses it, or says none, where few are left.
+    /// What cannot be listed has no better one.
+    fn find_start(&self, path: &Path, stream: &mut Value) {
+        let index = stream["index"].as_u64().and_then(|index| u32::try_from(index).ok());
+        let (Some(index), Some(time_base)) = (index, ratio(stream, "time_base")) else { return };
+        if let Some(first) = self.first_times(path, index).ok().and_then(|times| times.first().copied()) {
+            stream["start_pts"] = Value::from(first);
+            stream["start_time"] = Value::from((first as f64 * time_base.to_f64()).to_string());
+        }
+    }
+
     /// Adds what only the file's boxes, or its first frame, tell.
     fn complete(&self, info: &mut VideoInfo) -> Result<(), VideoError> {
         // Matroska tells a rate, whatever the times of its frames.
-        if info.container.starts_with("matroska") && !info.is_variable {
+        if is_matroska(&info.container) && !info.is_variable {
             info.is_variable = !self.begins_evenly(info)?;
             // A duration tells no number of frames where their rate varies.
             let is_told = |told: &Announced| told.by == AnnouncedBy::Count || !info.is_variable;
@@ -121,6 +135,14 @@ fn document(path: &Path, said: &Said, cut: Option<CutShort>) -> Result<Value, Vi
     })
 }
 
+fn streams(document: &Value) -> &[Value] {
+    document["streams"].as_array().map(Vec::as_slice).unwrap_or_default()
+}
+
+fn is_matroska(container: &str) -> bool {
+    container.starts_with("matroska")
+}
+
 /// Returns whether a stream is video, and not the picture of a cover.
 fn is_video(stream: &Value) -> bool {
     let is_cover = stream["disposition"]["attached_pic"].as_i64() == Some(1);
@@ -166,7 +188,7 @@ fn metadata(format: &Value) -> Vec<(String, String)> {
 
 fn announced_by_duration(info: &VideoInfo) -> Option<Announced> {
     // What Matroska tells beyond whole frames is the sound before the first.
-    let part = if info.container.starts_with("matroska") { 0.25 } else { 0.5 };
+    let part = if is_matroska(&info.container) { 0.25 } else { 0.5 };
     let frames = (info.duration? * info.rate.to_f64() + part).floor();
     let is_told = !info.is_variable && info.rate.to_f64() < FASTEST && (1.0..1e12).contains(&frames);
     is_told.then_some(Announced { frames: frames as u64, by: AnnouncedBy::Duration })

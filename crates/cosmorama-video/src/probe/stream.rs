@@ -32,7 +32,7 @@ pub(super) fn text<'a>(value: &'a Value, name: &str) -> Option<&'a str> {
     value[name].as_str()
 }
 
-fn ratio(value: &Value, name: &str) -> Option<Ratio> {
+pub(super) fn ratio(value: &Value, name: &str) -> Option<Ratio> {
     text(value, name).and_then(Ratio::parse)
 }
 

@@ -1,3 +1,4 @@
+use std::path::Path;
 use std::time::Duration;
 
 use crate::{Ffmpeg, Ratio, VideoError, VideoInfo};
@@ -115,7 +116,7 @@ impl Ffmpeg {
     pub(super) fn begins_evenly(&self, info: &VideoInfo) -> Result<bool, VideoError> {
         /// Frames at the end of those that are read, or that are left of a cut file, before which others may come.
         const UNSURE: usize = 20;
-        let times = self.times_of(info, &["-read_intervals", "%+#120"])?;
+        let times = self.first_times(&info.path, info.stream)?;
         let is_whole = times.len() < 100 && info.cut.is_none();
         let sure = times.len().saturating_sub(if is_whole { 0 } else { UNSURE });
         let even = Timeline::Even { start: info.start, time_base: info.time_base, rate: info.rate };
@@ -124,15 +125,20 @@ impl Ffmpeg {
 
     /// Reads the times of all coded frames that are shown, in their order.
     pub(crate) fn packet_times(&self, info: &VideoInfo) -> Result<Vec<i64>, VideoError> {
-        self.times_of(info, &[])
+        self.times_of(&info.path, info.stream, &[])
     }
 
-    fn times_of(&self, info: &VideoInfo, part: &[&str]) -> Result<Vec<i64>, VideoError> {
-        let stream = info.stream.to_string();
+    /// Reads the times of the first coded frames that are shown, up to 120, in their order.
+    pub(super) fn first_times(&self, path: &Path, stream: u32) -> Result<Vec<i64>, VideoError> {
+        self.times_of(path, stream, &["-read_intervals", "%+#120"])
+    }
+
+    fn times_of(&self, path: &Path, stream: u32, part: &[&str]) -> Result<Vec<i64>, VideoError> {
+        let stream = stream.to_string();
         let entries = ["-select_streams", &stream, "-show_entries", "packet=pts,flags", "-of", "csv=p=0"];
         let arguments = [&entries, part].concat();
         let mut times = Vec::new();
-        self.ffprobe_lines(&info.path, &arguments, |line| {
+        self.ffprobe_lines(path, &arguments, |line| {
             let mut fields = line.split(',');
             let time = fields.next().and_then(|time| time.parse::<i64>().ok());
             // D marks what is decoded for the sake of others alone.
@@ -141,7 +147,7 @@ impl Ffmpeg {
             if times.len() > MOST_FRAMES {
                 let found = format!("it has more than {MOST_FRAMES} frames");
                 let expected = "fewer".to_owned();
-                return Err(VideoError::Unsupported { path: info.path.clone(), found, expected });
+                return Err(VideoError::Unsupported { path: path.to_owned(), found, expected });
             }
             Ok(())
         })?;

@@ -188,8 +188,18 @@ fn what_is_left_does_not_change_what_was_announced() {
         let announced = ffmpeg.probe(&path).unwrap().announced.expect("a number of frames");
         assert_eq!(announced.frames, 50, "{} bytes", std::fs::metadata(&path).unwrap().len());
     }
+    // Of few frames ffprobe tells no beginning, or guesses one. That of the sound is before it, by more than a frame.
+    run(&format!("{} -f lavfi -i sine=duration=3 -c:v libx264 -g 10 -c:a aac", moving(128, 64, "60", 120)), &path);
+    let bytes = std::fs::read(&path).unwrap();
+    for frame in 0..6 {
+        let (place, size) = packet(&path, frame);
+        std::fs::write(&path, &bytes[..place + size + 20]).unwrap();
+        let announced = ffmpeg.probe(&path).unwrap().announced.expect("a number of frames");
+        assert_eq!(announced.frames, 120, "frame {frame}");
+        std::fs::write(&path, &bytes).unwrap();
+    }
     // Without a picture, nothing tells what its pixels are.
-    cut(&path, 0.3);
+    cut(&path, 0.03);
     let error = ffmpeg.probe(&path).unwrap_err();
     assert!(matches!(error, VideoError::Cut { is_described: false, .. }), "{error}");
 }

@@ -3,8 +3,8 @@
 use cosmorama_io::Header;
 
 use super::{
-    FrameNeeds, Held, Strips, are_too_large, is_large, pixels_in, pixels_of, program_bytes, solid_angle_bytes, sum,
-    table_bytes, with_reserve, without_reserve,
+    FrameNeeds, Held, Strips, are_too_large, is_large, map_bytes, pixels_in, pixels_of, program_bytes,
+    solid_angle_bytes, sum, with_reserve, without_reserve,
 };
 use crate::colour::{LayerPlan, Light};
 use crate::diagnostic::{CHANNELS, EVERY, Result, SHUTTER};
@@ -18,7 +18,7 @@ impl MemoryBudget {
     /// Checks that the geometry of whole pictures, and the light of the largest file, fit before memory is allocated. A
     /// small file may declare a huge size, or be a window of a huge canvas.
     pub(crate) fn check_pictures(self, input: &Input) -> Result<()> {
-        let tables = input.views().map(|view| table_bytes(&view.nominal)).fold(0, u64::saturating_add);
+        let tables = input.views().map(|view| map_bytes(&view.nominal)).fold(0, u64::saturating_add);
         // At least, since pictures of 8 bits may be held in integers.
         let light =
             |header: &Header| Held::INTEGERS.light((header.width, header.height)).saturating_add(read_bytes(header));

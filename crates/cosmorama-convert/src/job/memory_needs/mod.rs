@@ -169,7 +169,7 @@ impl FrameNeeds {
     /// Adds the tables of views' projections.
     fn beside_tables<'v>(self, views: impl Iterator<Item = &'v View>) -> Self {
         views.filter(|view| is_map(view)).fold(self, |needs, view| Self {
-            shared: needs.shared.saturating_add(table_bytes(view)),
+            shared: needs.shared.saturating_add(map_bytes(view)),
             maps: needs.maps.max(map_reading_bytes(map_bytes(view))),
             ..needs
         })
@@ -521,13 +521,7 @@ fn looked_at_bytes(input: &Input) -> u64 {
     }
 }
 
-/// Returns the bytes of tables that a view's projection holds.
-fn table_bytes(view: &View) -> u64 {
-    // The parts of which a map was gathered stay with the program, and holes tear it into small pieces.
-    map_bytes(view).saturating_mul(9) / 4
-}
-
-/// Returns the bytes of a view's st map by itself.
+/// Returns the bytes of the st map that a view's projection holds.
 fn map_bytes(view: &View) -> u64 {
     match &view.projection {
         ProjectionKind::StMap(map) => map.bytes(),

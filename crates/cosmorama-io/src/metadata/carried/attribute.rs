@@ -4,7 +4,7 @@
 pub(crate) const LARGEST: usize = 16 << 20;
 
 /// Attributes that the writer sets itself: how pixels are stored, and what their colours are.
-const REWRITTEN: [&str; 24] = [
+const REWRITTEN: [&str; 23] = [
     "channels",
     "chromaticities",
     "chunkCount",
@@ -17,7 +17,6 @@ const REWRITTEN: [&str; 24] = [
     "lineOrder",
     "maxSamplesPerPixel",
     "name",
-    "openexr:dwaCompressionLevel",
     "oiio:ColorSpace",
     "pixelAspectRatio",
     "screenWindowCenter",
@@ -30,6 +29,9 @@ const REWRITTEN: [&str; 24] = [
     "whiteLuminance",
     "oiio:subimages",
 ];
+
+/// Prefix of OpenImageIO's attributes about how the file that it read was stored, such as its number of chunks.
+const STORED: &str = "openexr:";
 
 /// Attributes that are not true of the output, which is another picture: projection, field of view, pixels.
 const UNTRUE: [&str; 35] = [
@@ -90,7 +92,7 @@ pub struct Attribute {
 pub(super) enum Fate {
     /// The output takes it over.
     Kept,
-    /// The writer sets it itself.
+    /// It says how a file is stored, which the writer sets itself.
     Rewritten,
     /// It is not true of the output.
     Untrue,
@@ -127,7 +129,7 @@ impl Attribute {
         let is_named = |names: &[&str]| names.contains(&&*self.name);
         match () {
             () if is_named(&UNTRUE) => Fate::Untrue,
-            () if is_named(&REWRITTEN) => Fate::Rewritten,
+            () if is_named(&REWRITTEN) || self.name.starts_with(STORED) => Fate::Rewritten,
             () => Fate::Kept,
         }
     }
@@ -166,6 +168,14 @@ fn time_code(packed: u32) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn how_another_file_was_stored_is_not_carried_along() {
+        let fate =
+            |name: &str| Attribute { name: name.to_owned(), kind: "int".to_owned(), bytes: vec![64, 0, 0, 0] }.fate();
+        assert_eq!(["chunkCount", "openexr:chunkCount", "openexr:levelmode"].map(fate), [Fate::Rewritten; 3]);
+        assert_eq!(["isoSpeed", "chunkCounter"].map(fate), [Fate::Kept; 2]);
+    }
 
     #[test]
     fn values_are_told_as_people_read_them() {

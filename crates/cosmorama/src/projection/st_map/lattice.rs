@@ -69,8 +69,11 @@ impl Links {
                 | flag(valid && joined((i, j), (1, 0)), RIGHT)
                 | flag(valid && joined((i, j), (0, 1)), BELOW)
         };
-        let row = |j: usize| (0..width).map(move |i| (i, j)).map(|(i, j)| flags_of(i as i64, j as i64));
-        Self { width, height, flags: (0..height).into_par_iter().flat_map_iter(row).collect() }
+        let mut flags = vec![0; width * height];
+        flags.par_chunks_exact_mut(width.max(1)).enumerate().for_each(|(j, row)| {
+            row.iter_mut().enumerate().for_each(|(i, flags)| *flags = flags_of(i as i64, j as i64));
+        });
+        Self { width, height, flags }
     }
 
     fn has(&self, i: i64, j: i64, flag: u8) -> bool {

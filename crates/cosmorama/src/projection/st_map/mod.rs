@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use self::lattice::{Jet, Links, Samples};
-use self::piece::{Leaf, Piece};
+use self::piece::{LEAF, Leaf, MOST_PIECES, Piece};
 use self::tree::{MOST_BEYOND, Tree};
 use super::{Outline, PlanePoint, PlaneRect, Projection};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
@@ -35,6 +35,26 @@ pub struct StMapTable {
     /// Leaves of the pieces, in their order in the trees.
     leaves: Vec<Leaf>,
     by_direction: Tree,
+}
+
+/// Bytes of a piece in a table: its leaf, its box, and its entry in the tree with a share of the nodes above.
+const PIECE: u64 = 112;
+
+/// Returns the number of tables: of directions, and of places.
+fn tables(has_places: bool) -> u64 {
+    if has_places { 2 } else { 1 }
+}
+
+/// Returns the number of leaves of a lattice.
+fn leaves_of((width, height): (usize, usize)) -> u64 {
+    (width.div_ceil(LEAF) as u64).saturating_mul(height.div_ceil(LEAF) as u64)
+}
+
+/// Returns the bytes of a value of each sample in each table, of its flags, and of pieces: one a leaf, at least.
+fn bytes_of(size: (usize, usize), tables: u64, pieces: u64) -> u64 {
+    let samples = (size.0 as u64).saturating_mul(size.1 as u64);
+    let values = samples.saturating_mul(tables * size_of::<Vec3>() as u64 + 1);
+    values.saturating_add(pieces.max(leaves_of(size)).saturating_mul(tables * PIECE))
 }
 
 /// Greatest number of rectangles of an outline; beyond it one rectangle is used.
@@ -167,12 +187,15 @@ impl StMapTable {
     }
 
     /// Estimates the memory, in bytes, that a table of so many columns and rows takes, with or without places of its
-    /// own.
-    pub fn bytes((width, height): (usize, usize), has_places: bool) -> u64 {
-        let tables = if has_places { 2 } else { 1 };
-        // A value and the share of a leaf's box in each table, and the flags of a sample.
-        let sample = tables * (size_of::<Vec3>() + 2) + 2;
-        (width as u64).saturating_mul(height as u64).saturating_mul(sample as u64)
+    /// own, if it is torn everywhere.
+    pub fn bytes_at_most(size: (usize, usize), has_places: bool) -> u64 {
+        let most = leaves_of(size).saturating_mul(MOST_PIECES as u64);
+        bytes_of(size, tables(has_places), most)
+    }
+
+    fn bytes(&self) -> u64 {
+        let has_places = matches!(self.places, Places::Table(..));
+        bytes_of(self.size(), tables(has_places), self.leaves.len() as u64)
     }
 
     /// Returns how far outside the lattice places are defined.
@@ -195,9 +218,13 @@ impl StMapTable {
 
 impl Samples {
     fn of(width: usize, height: usize, value: impl Fn(usize, usize) -> Option<DVec3> + Sync) -> Self {
-        let vector = |i, j| value(i, j).map_or(Vec3::NAN, DVec3::as_vec3);
-        let row = |j: usize| (0..width).map(move |i| (i, j)).map(|(i, j)| vector(i, j));
-        let values = (0..height).into_par_iter().flat_map_iter(row).collect();
+        // Filled in place: lists of rows that are joined would take the memory twice.
+        let mut values = vec![Vec3::NAN; width * height];
+        values.par_chunks_exact_mut(width.max(1)).enumerate().for_each(|(j, row)| {
+            for (i, sample) in row.iter_mut().enumerate() {
+                *sample = value(i, j).map_or(Vec3::NAN, DVec3::as_vec3);
+            }
+        });
         Self { width, height, values }
     }
 }
@@ -216,7 +243,7 @@ impl StMap {
 
     /// Returns the memory that its table takes, in bytes.
     pub fn bytes(&self) -> u64 {
-        StMapTable::bytes(self.0.size(), matches!(self.0.places, Places::Table(..)))
+        self.0.bytes()
     }
 }
 

@@ -5,6 +5,10 @@ use super::lattice::{Links, Samples};
 /// Side of a leaf, in squares of the lattice.
 pub(crate) const LEAF: usize = 8;
 
+/// Greatest number of pieces of a leaf. A tear makes two, or three beside its end; more come of holes here and there, whose
+/// pieces lie near each other, and need no box each.
+pub(crate) const MOST_PIECES: usize = 4;
+
 /// A block of the lattice, in columns and rows from its corner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Leaf {
@@ -33,11 +37,17 @@ impl Leaf {
         self.rectangle_with(samples, 1.0) != self.rectangle(samples)
     }
 
+    /// Returns the column and row of the first of its cells.
+    fn first_cell(self) -> [usize; 2] {
+        [self.column, self.row].map(|at| (at * LEAF).saturating_sub(1))
+    }
+
     /// Visits the upper left corners of the cells between the leaf's samples and those beside them, as far as its
     /// cubics reach.
     fn cells(self, width: usize, height: usize) -> impl Iterator<Item = (usize, usize)> {
-        let ends = |start: usize, size: usize| start.saturating_sub(1)..(start + LEAF).min(size - 1);
-        let (columns, rows) = (ends(self.column * LEAF, width), ends(self.row * LEAF, height));
+        let [left, top] = self.first_cell();
+        let columns = left..(self.column * LEAF + LEAF).min(width - 1);
+        let rows = top..(self.row * LEAF + LEAF).min(height - 1);
         rows.flat_map(move |j| columns.clone().map(move |i| (i, j)))
     }
 }
@@ -47,10 +57,8 @@ impl Leaf {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Piece {
     pub(crate) leaf: Leaf,
-    /// Upper left corners of the cells between four of its samples.
-    pub(crate) cells: Vec<(usize, usize)>,
-    /// Whether the piece is the leaf's only one, because nothing is torn.
-    pub(crate) is_whole: bool,
+    /// Columns and rows of its cells, from the leaf's first cell; `None` if it has all cells of a leaf that is not torn.
+    torn: Option<Vec<[u8; 2]>>,
 }
 
 impl Piece {
@@ -61,27 +69,45 @@ impl Piece {
         (0..columns * rows).into_par_iter().flat_map_iter(|k| Self::of(leaf(k), links)).collect()
     }
 
-    /// Finds the pieces of a leaf: sets of cells connected by common samples.
+    /// Finds the pieces of a leaf: sets of cells connected by common samples. The last of [`MOST_PIECES`] has all that is
+    /// left.
     fn of(leaf: Leaf, links: &Links) -> Vec<Self> {
         let all = leaf.cells(links.width, links.height);
-        let mut left: Vec<_> = all.filter(|&(i, j)| links.is_whole(i as i64, j as i64)).collect();
-        let is_whole = left.len() == leaf.cells(links.width, links.height).count();
-        if is_whole && !left.is_empty() {
-            return vec![Self { leaf, cells: left, is_whole }];
+        let mut remaining: Vec<_> = all.filter(|&(i, j)| links.is_whole(i as i64, j as i64)).collect();
+        if !remaining.is_empty() && remaining.len() == leaf.cells(links.width, links.height).count() {
+            return vec![Self { leaf, torn: None }];
         }
+        let [left, top] = leaf.first_cell();
         let mut pieces = Vec::new();
-        while let Some(first) = left.pop() {
+        while let Some(first) = remaining.pop() {
             let mut cells = vec![first];
+            if pieces.len() + 1 == MOST_PIECES {
+                cells.append(&mut remaining);
+            }
             let mut seen = 0;
             while let Some(&(i, j)) = cells.get(seen) {
                 seen += 1;
                 let touches = |&(a, b): &(usize, usize)| a.abs_diff(i) <= 1 && b.abs_diff(j) <= 1;
-                let (near, far): (Vec<_>, Vec<_>) = left.iter().partition(|cell| touches(cell));
-                left = far;
+                let (near, far): (Vec<_>, Vec<_>) = remaining.iter().partition(|cell| touches(cell));
+                remaining = far;
                 cells.extend(near);
             }
-            pieces.push(Self { leaf, cells, is_whole });
+            let torn = cells.into_iter().map(|(i, j)| [(i - left) as u8, (j - top) as u8]).collect();
+            pieces.push(Self { leaf, torn: Some(torn) });
         }
         pieces
+    }
+
+    /// Returns whether the piece is the leaf's only one, because nothing is torn.
+    pub(crate) fn is_whole(&self) -> bool {
+        self.torn.is_none()
+    }
+
+    /// Visits the upper left corners of the cells between four of its samples, in a lattice of this size.
+    pub(crate) fn cells(&self, width: usize, height: usize) -> impl Iterator<Item = (usize, usize)> {
+        let all = self.is_whole().then(|| self.leaf.cells(width, height));
+        let [left, top] = self.leaf.first_cell();
+        let torn = self.torn.iter().flatten().map(move |[i, j]| (left + usize::from(*i), top + usize::from(*j)));
+        torn.chain(all.into_iter().flatten())
     }
 }

@@ -62,6 +62,29 @@ fn a_point_comes_back_and_the_jacobian_is_the_derivative() {
 }
 
 #[test]
+fn the_memory_of_torn_maps_is_counted() {
+    let map = |is_there: fn(usize, usize) -> bool| {
+        StMapTable::of_pixels(SIZE.0, SIZE.1, |i, j| {
+            let (x, y) = middle(i, j);
+            is_there(i, j).then(|| straight(x, y))
+        })
+    };
+    let [whole, torn] = [map(|_, _| true), map(|i, j| i % 3 > 0 && j % 3 > 0)].map(|table| table.unwrap());
+    // Each two samples by two are a cell of their own, of which a leaf's last piece has most.
+    assert_eq!(torn.leaves.len(), MOST_PIECES * whole.leaves.len());
+    assert_eq!(torn.bytes() - whole.bytes(), PIECE * (torn.leaves.len() - whole.leaves.len()) as u64);
+    assert_eq!(torn.bytes(), StMapTable::bytes_at_most(SIZE, false));
+    let place = |i, j| torn.direction(i as f64 + 0.5, j as f64 + 0.5).map(|(direction, _)| direction);
+    for (i, j) in (0..SIZE.1).flat_map(|j| (0..SIZE.0).map(move |i| (i, j))).filter(|(i, j)| i % 3 > 0 && j % 3 > 0) {
+        let (x, y) = middle(i, j);
+        let off = place(i, j).expect("a sample").vector().distance(straight(x, y).vector());
+        assert!(off < 1e-6, "({i}, {j}) is {off} away");
+        let found = StMap::new(torn.clone()).project(straight(x, y)).expect("a place");
+        assert!((found.x - (x - 0.5)).hypot(found.y - (0.5 - y)) < 1e-4, "({i}, {j}) is found at {found:?}");
+    }
+}
+
+#[test]
 fn between_samples_the_table_is_the_formula() {
     let worst = |found: f64, worst: &mut f64| *worst = worst.max(found);
     let (mut inside, mut border) = (0.0, 0.0);

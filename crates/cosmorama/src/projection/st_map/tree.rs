@@ -92,7 +92,7 @@ impl Tree {
 fn bounds(samples: &Samples, links: &Links, piece: &Piece, beyond: f64) -> Bounds {
     let value = |i: usize, j: usize| samples.values[j * samples.width + i];
     let (mut bounds, mut longest) = (Bounds::NOTHING, 0f32);
-    for &(i, j) in &piece.cells {
+    for (i, j) in piece.cells(samples.width, samples.height) {
         let [a, b, c, d] = [value(i, j), value(i + 1, j), value(i, j + 1), value(i + 1, j + 1)];
         bounds = [a, b, c, d].into_iter().fold(bounds, Bounds::with);
         let steps = [a.distance_squared(b), a.distance_squared(c), d.distance_squared(b), d.distance_squared(c)];
@@ -110,7 +110,7 @@ fn bounds(samples: &Samples, links: &Links, piece: &Piece, beyond: f64) -> Bound
         }
     }
     // Beyond its samples a table continues as a parabola, on which half a square may be as long as two others.
-    let room = if piece.is_whole && !is_outer { 0.5 } else { 2.0 };
+    let room = if piece.is_whole() && !is_outer { 0.5 } else { 2.0 };
     bounds.widened(room * longest + 1e-6)
 }
 

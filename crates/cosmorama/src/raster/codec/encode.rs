@@ -1,6 +1,7 @@
 use half::f16;
 use rayon::prelude::*;
 
+use super::byte_codes::RgbTables;
 use super::decode::CHUNK;
 use super::quantizer::Quantizer;
 use crate::raster::{
@@ -69,13 +70,14 @@ impl Encoder {
 
     /// Returns the samples of a pixel, if they are red, green and blue of 8 bits.
     pub fn rgb(&self, light: Rgba) -> Option<[u8; 3]> {
-        self.rgb_codes().map(|codes| codes.codes(light))
+        self.rgb_codes().map(|codes| codes.rgb(light))
     }
 
     /// Returns the conversion to opaque pixels of 8 bits; `None` if samples are of another kind.
     pub(crate) fn rgb_codes(&self) -> Option<RgbCodes<'_>> {
         let is_rgb8 = self.channels == Channels::Rgb && self.depth == Depth::Eight;
-        self.quantizer.as_ref().filter(|_| is_rgb8).map(RgbCodes)
+        let quantizer = self.quantizer.as_ref().filter(|_| is_rgb8)?;
+        Some(quantizer.byte_tables().map_or(RgbCodes::Search(quantizer), RgbCodes::Tables))
     }
 
     /// Encodes an image.
@@ -155,14 +157,40 @@ impl Encoder {
 
 /// Conversion of light to opaque pixels of 8 bits.
 #[derive(Clone, Copy)]
-pub(crate) struct RgbCodes<'a>(&'a Quantizer);
+pub(crate) enum RgbCodes<'a> {
+    /// By small tables of red, green and blue.
+    Tables(RgbTables<'a>),
+    /// By a search, for curves that have no such tables.
+    Search(&'a Quantizer),
+}
 
 impl RgbCodes<'_> {
+    /// Returns the codes of light, whose alpha is ignored, from the low byte on.
+    #[inline(always)]
+    fn packed(self, Rgba(light): Rgba) -> u32 {
+        match self {
+            Self::Tables(tables) => tables.packed(light),
+            Self::Search(quantizer) => {
+                let code = |channel: ColourChannel| u32::from(quantizer.code(light[channel.index()], channel));
+                code(ColourChannel::Red) | code(ColourChannel::Green) << 8 | code(ColourChannel::Blue) << 16
+            }
+        }
+    }
+
+    /// Returns the codes of eight lights, each from the low byte on.
+    #[inline(always)]
+    pub(crate) fn packed_eight(self, light: &[Rgba; 8]) -> [u32; 8] {
+        match self {
+            Self::Tables(tables) => tables.packed_eight(bytemuck::cast_ref(light)),
+            Self::Search(_) => light.map(|light| self.packed(light)),
+        }
+    }
+
     /// Returns the codes of light, whose alpha is ignored.
     #[inline(always)]
-    pub(crate) fn codes(self, Rgba([red, green, blue, _]): Rgba) -> [u8; 3] {
-        let code = |light, channel| self.0.code(light, channel) as u8;
-        [code(red, ColourChannel::Red), code(green, ColourChannel::Green), code(blue, ColourChannel::Blue)]
+    pub(crate) fn rgb(self, light: Rgba) -> [u8; 3] {
+        let [red, green, blue, _] = self.packed(light).to_le_bytes();
+        [red, green, blue]
     }
 }
 

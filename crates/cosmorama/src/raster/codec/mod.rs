@@ -1,5 +1,6 @@
 //! Conversion of encoded samples to linear light, and back.
 
+pub(crate) mod byte_codes;
 pub(crate) mod decode;
 pub(crate) mod encode;
 pub(crate) mod frame_pool;

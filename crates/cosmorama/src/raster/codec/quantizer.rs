@@ -1,3 +1,4 @@
+use super::byte_codes::{ByteTable, RgbTables};
 use crate::raster::{ColourChannel, Transfer};
 
 /// Table from light to integer codes, exactly as rounding the transfer function would give them. It holds the least
@@ -17,7 +18,17 @@ impl Quantizer {
     /// Returns the code of a light value: 0 for NaN and negative light, `last` for white and above.
     #[inline]
     pub(crate) fn code(&self, light: f32, channel: ColourChannel) -> u16 {
-        self.channels[channel.index().min(self.channels.len() - 1)].code(light)
+        self.of(channel).code(light)
+    }
+
+    fn of(&self, channel: ColourChannel) -> &Thresholds {
+        &self.channels[channel.index().min(self.channels.len() - 1)]
+    }
+
+    /// Returns the small tables of red, green and blue, if codes have 8 bits and lie apart.
+    pub(super) fn byte_tables(&self) -> Option<RgbTables<'_>> {
+        let [red, green, blue] = ColourChannel::ALL.map(|channel| self.of(channel).bytes.as_deref());
+        Some(RgbTables([red?, green?, blue?]))
     }
 }
 
@@ -25,17 +36,17 @@ impl Quantizer {
 const SHIFT: u32 = 14;
 
 #[derive(Debug)]
-struct Thresholds {
+pub(super) struct Thresholds {
     /// Least light of codes 1, 2, 3 …
     least: Vec<f32>,
     /// Number of codes that begin before each bucket; one more entry at the end.
     before: Vec<u16>,
-    /// Whether at most one code begins in each bucket, as with 8 bits.
-    is_sparse: bool,
+    /// Smaller table of the same, of most curves with codes of 8 bits.
+    bytes: Option<Box<ByteTable>>,
 }
 
 impl Thresholds {
-    fn new(transfer: &Transfer, last: u16, channel: ColourChannel) -> Self {
+    pub(super) fn new(transfer: &Transfer, last: u16, channel: ColourChannel) -> Self {
         let boundary = |code: u16| transfer.decode((f64::from(code) - 0.5) / f64::from(last), channel) as f32;
         let least: Vec<f32> = (1..=last).map(boundary).collect();
         let of = |light: Option<&f32>| light.filter(|light| **light > 0.0).map_or(0, |light| bucket(*light));
@@ -50,23 +61,32 @@ impl Thresholds {
             }
             code as u16
         }));
-        let is_sparse = before[first..].windows(2).all(|pair| pair[1] - pair[0] <= 1);
-        Self { least, before, is_sparse }
+        let bytes = ByteTable::new(&least).map(Box::new);
+        Self { least, before, bytes }
+    }
+
+    /// Returns the least light of codes 1, 2, 3 and so on.
+    #[cfg(test)]
+    pub(super) fn least(&self) -> &[f32] {
+        &self.least
     }
 
     #[inline(always)]
     fn code(&self, light: f32) -> u16 {
+        match &self.bytes {
+            Some(table) => table.code(light) as u16,
+            None => self.search(light),
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn search(&self, light: f32) -> u16 {
         if light.is_nan() || light <= 0.0 {
             return 0;
         }
         // The greatest code begins in the last bucket.
         let bucket = bucket(light).min(self.before.len() - 2);
-        let from = usize::from(self.before[bucket]);
-        if self.is_sparse {
-            // Without a branch, since nobody can guess it.
-            return self.before[bucket] + u16::from(self.least[from] <= light);
-        }
-        let to = usize::from(self.before[bucket + 1]);
+        let (from, to) = (usize::from(self.before[bucket]), usize::from(self.before[bucket + 1]));
         (from + self.least[from..to].partition_point(|&least| least <= light)) as u16
     }
 }

@@ -26,11 +26,20 @@ impl Develop for LookUp<'_> {
 
     #[inline(always)]
     fn eight(&self, light: [&[i32; 4]; SIDE]) -> [[u8; 3]; SIDE] {
-        // Assembled in registers: eight bytes at once are written faster than one by one.
-        let two = |at: usize| u64::from(self.0.of(*light[at])) | u64::from(self.0.of(*light[at + 1])) << 24;
-        let (a, b, c, d) = (two(0), two(2), two(4), two(6));
-        bytemuck::cast([(a | b << 48).to_le(), (b >> 16 | c << 32).to_le(), (c >> 32 | d << 16).to_le()])
+        let mut codes = [0; SIDE];
+        for (codes, light) in codes.iter_mut().zip(light) {
+            *codes = self.0.of(*light);
+        }
+        unpacked(codes)
     }
+}
+
+/// Returns pixels whose codes are packed, from the low byte on. Eight bytes at once are written faster than one by one.
+#[inline(always)]
+pub(crate) fn unpacked(codes: [u32; SIDE]) -> [[u8; 3]; SIDE] {
+    let two = |at: usize| u64::from(codes[at]) | u64::from(codes[at + 1]) << 24;
+    let (a, b, c, d) = (two(0), two(2), two(4), two(6));
+    bytemuck::cast([(a | b << 48).to_le(), (b >> 16 | c << 32).to_le(), (c >> 32 | d << 16).to_le()])
 }
 
 /// Encoder that computes the codes of sRGB, which is faster. A table look-up spends most of its time moving samples out

@@ -10,6 +10,7 @@ use fearless_simd::{Simd, f32x4, prelude::*};
 
 use super::driver::{Fresh, Window, WindowArithmetic, WindowSums};
 use super::fixed::blocks::Mirrored;
+use super::fixed::encode_u8::unpacked;
 use super::float::weights::FloatFormat;
 use super::tap_lists::Palette;
 use super::tile_writer::{Canvas, Develop, GroupLight};
@@ -33,6 +34,9 @@ pub(crate) trait LightPixels: Copy + Sync {
 
     /// Returns the pixel of some light.
     fn of(self, light: Rgba) -> Self::Pixel;
+
+    /// Returns the pixels of eight lights.
+    fn eight(self, light: [Rgba; SIDE]) -> [Self::Pixel; SIDE];
 }
 
 /// Pixels that are light themselves.
@@ -46,6 +50,11 @@ impl LightPixels for Uncoded {
     fn of(self, light: Rgba) -> Rgba {
         light
     }
+
+    #[inline(always)]
+    fn eight(self, light: [Rgba; SIDE]) -> [Rgba; SIDE] {
+        light
+    }
 }
 
 impl LightPixels for RgbCodes<'_> {
@@ -53,7 +62,12 @@ impl LightPixels for RgbCodes<'_> {
 
     #[inline(always)]
     fn of(self, light: Rgba) -> [u8; 3] {
-        self.codes(light)
+        self.rgb(light)
+    }
+
+    #[inline(always)]
+    fn eight(self, light: [Rgba; SIDE]) -> [[u8; 3]; SIDE] {
+        unpacked(self.packed_eight(&light))
     }
 }
 
@@ -109,22 +123,30 @@ impl<P: LightPixels> WindowArithmetic for FloatArithmetic<'_, P> {
     }
 }
 
+impl<P> FloatArithmetic<'_, P> {
+    /// Returns light in front of the background.
+    #[inline(always)]
+    fn in_front(&self, light: Rgba) -> Rgba {
+        if self.background == Rgba::TRANSPARENT { light } else { light.over(self.background) }
+    }
+}
+
 impl<P: LightPixels> Develop for FloatArithmetic<'_, P> {
     type Light = Rgba;
     type Pixel = P::Pixel;
 
     #[inline(always)]
     fn one(&self, light: Rgba) -> P::Pixel {
-        self.pixels.of(if self.background == Rgba::TRANSPARENT { light } else { light.over(self.background) })
+        self.pixels.of(self.in_front(light))
     }
 
     #[inline(always)]
     fn eight(&self, light: [&Rgba; SIDE]) -> [P::Pixel; SIDE] {
-        let mut pixels = [P::Pixel::zeroed(); SIDE];
-        for (pixel, light) in pixels.iter_mut().zip(light) {
-            *pixel = self.one(*light);
+        let mut shown = [Rgba::TRANSPARENT; SIDE];
+        for (shown, light) in shown.iter_mut().zip(light) {
+            *shown = self.in_front(*light);
         }
-        pixels
+        self.pixels.eight(shown)
     }
 }
 

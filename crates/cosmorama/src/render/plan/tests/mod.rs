@@ -4,6 +4,8 @@ mod runs;
 mod sizes;
 mod worlds;
 
+use std::sync::Arc;
+
 use fearless_simd::{Simd, dispatch};
 
 use super::recorder::Maker;
@@ -14,7 +16,7 @@ use crate::camera::{FieldStop, View};
 use crate::filter::taps::{Tap, TapList, average};
 use crate::filter::{FilterKind, FilterSettings};
 use crate::projection::ProjectionKind;
-use crate::raster::{Channels, ColourChannel, Depth, EncodedImage, Encoder, RowLayout, Threads, Transfer};
+use crate::raster::{Channels, ColourChannel, Depth, EncodedImage, Encoder, RowLayout, Threads, ToneCurve, Transfer};
 use crate::render::batch::window::Windows;
 use crate::sphere::{CubeFace, Orientation};
 use crate::world::{Blend, World, WorldView};
@@ -147,7 +149,15 @@ fn samples_that_are_made_at_once_are_those_of_the_light() {
     for (world, target, _) in conversions() {
         let (texels, resampler) = (floats(&light(&world)), resampler(&world, &target));
         let plan = resampler.plan(Arithmetic::Float).expect("a plan");
-        for (background, transfer) in [(Rgba::BLACK, Transfer::Bt1886), (Rgba::opaque(0.2, 0.5, 0.9), Transfer::Srgb)] {
+        // The codes of a narrow curve are found by a search.
+        let [curve, narrow] = [(0.0, 1.0), (0.4, 0.05)].map(|(least, range): (f32, f32)| {
+            let table = |gamma: f32| (0..256).map(|at| least + range * (at as f32 / 255.0).powf(gamma)).collect();
+            Transfer::Curve(Arc::new(ToneCurve::new([1.8, 2.2, 2.6].map(table)).expect("a curve")))
+        });
+        let blue = Rgba::opaque(0.2, 0.5, 0.9);
+        for (background, transfer) in
+            [(Rgba::BLACK, Transfer::Bt1886), (blue, Transfer::Srgb), (blue, curve), (Rgba::BLACK, narrow)]
+        {
             let encoder = Encoder::new(Channels::Rgb, Depth::Eight, &transfer);
             assert!(plan.encodes(&encoder));
             let mut image = Image::filled(target.width(), target.height(), [9; 3]);
