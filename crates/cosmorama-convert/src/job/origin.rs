@@ -90,8 +90,13 @@ impl Origin {
         let read_by = |layer: &ConvertJob| -> Vec<Option<u64>> {
             let mut own = Samples::default();
             let paths = layer.input.paths(layer.input.frames[place]);
-            let paths = paths.iter().chain(&layer.input.beside).map(|path| FrameName::file(path));
-            paths.map(|path| still.known(&path).unwrap_or_else(|| own.of(&*layer.files, path))).collect()
+            let read = |path: &PathBuf| {
+                let file = FrameName::file(path);
+                let bytes = still.known(&file).unwrap_or_else(|| own.of(&*layer.files, file))?;
+                // Frames of a video are told apart by their numbers.
+                Some(FrameName::parse(path).map_or(bytes, |name| xxh3_64(format!("{bytes} {}", name.frame).as_bytes())))
+            };
+            paths.iter().chain(&layer.input.beside).map(read).collect()
         };
         let named: Vec<_> = self.named.iter().map(|path| still.known(path).flatten()).collect();
         let read = (job.layers().map(read_by).collect::<Vec<_>>(), named);

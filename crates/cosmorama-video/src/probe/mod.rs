@@ -12,6 +12,7 @@ use std::path::PathBuf;
 
 pub(crate) use structure::is_boxes;
 pub use timeline::Timeline;
+pub(crate) use timeline::{CodedFrame, shown_times};
 pub use turn::Turn;
 
 use crate::{ColourTags, HdrTags, Ratio, SignalRange, SpatialTags};

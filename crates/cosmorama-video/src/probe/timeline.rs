@@ -24,6 +24,25 @@ pub enum Timeline {
     },
 }
 
+/// Coded frame, as the container tells it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct CodedFrame {
+    /// Time in ticks.
+    pub(crate) time: i64,
+    /// Whether it is decoded without others.
+    pub(crate) is_key: bool,
+    /// Whether it is shown, and not decoded for the sake of others alone.
+    pub(crate) is_shown: bool,
+}
+
+/// Returns the times of the frames that are shown, in their order.
+pub(crate) fn shown_times(coded: &[CodedFrame]) -> Vec<i64> {
+    let mut times: Vec<i64> = coded.iter().filter(|frame| frame.is_shown).map(|frame| frame.time).collect();
+    times.sort_unstable();
+    times.dedup();
+    times
+}
+
 /// Frames of a video at most: ten days of 120 a second.
 const MOST_FRAMES: usize = 100_000_000;
 
@@ -134,26 +153,31 @@ impl Ffmpeg {
     }
 
     fn times_of(&self, path: &Path, stream: u32, part: &[&str]) -> Result<Vec<i64>, VideoError> {
+        let coded = self.coded_frames(path, stream, part)?;
+        Ok(shown_times(&coded))
+    }
+
+    /// Reads what is said of all coded frames that have a time, in the order in which they are decoded.
+    pub(crate) fn coded_frames(&self, path: &Path, stream: u32, part: &[&str]) -> Result<Vec<CodedFrame>, VideoError> {
         let stream = stream.to_string();
         let entries = ["-select_streams", &stream, "-show_entries", "packet=pts,flags", "-of", "csv=p=0"];
         let arguments = [&entries, part].concat();
-        let mut times = Vec::new();
+        let mut frames = Vec::new();
         self.ffprobe_lines(path, &arguments, |line| {
             let mut fields = line.split(',');
             let time = fields.next().and_then(|time| time.parse::<i64>().ok());
+            let flags = fields.next().unwrap_or_default();
             // D marks what is decoded for the sake of others alone.
-            let is_shown = fields.next().is_none_or(|flags| !flags.contains('D'));
-            times.extend(time.filter(|_| is_shown));
-            if times.len() > MOST_FRAMES {
+            let (is_key, is_shown) = (flags.contains('K'), !flags.contains('D'));
+            frames.extend(time.map(|time| CodedFrame { time, is_key, is_shown }));
+            if frames.len() > MOST_FRAMES {
                 let found = format!("it has more than {MOST_FRAMES} frames");
                 let expected = "fewer".to_owned();
                 return Err(VideoError::Unsupported { path: path.to_owned(), found, expected });
             }
             Ok(())
         })?;
-        times.sort_unstable();
-        times.dedup();
-        Ok(times)
+        Ok(frames)
     }
 }
 

@@ -4,6 +4,7 @@ mod decoder;
 mod filters;
 mod pair;
 mod reader;
+mod traces;
 
 use std::ops::{Range, RangeInclusive};
 
@@ -23,7 +24,7 @@ pub struct ReadOptions {
     pub damaged: Damaged,
     /// Bytes that one frame may take.
     pub memory: u64,
-    /// Threads of the decoder; 0 for as many as ffmpeg thinks right.
+    /// Threads of the decoder; 0 for as many as ffmpeg thinks right. Of what is damaged, several may make another picture each time.
     pub threads: usize,
 }
 

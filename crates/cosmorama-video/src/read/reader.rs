@@ -68,8 +68,9 @@ impl VideoReader {
             return Err(VideoError::Cut { path: info.path.clone(), expected, found, is_described: true });
         }
         let timeline = ffmpeg.timeline(info)?;
-        let known =
-            timeline.frames().or(info.announced.filter(|told| told.by == AnnouncedBy::Count).map(|told| told.frames));
+        let counted = info.announced.filter(|told| told.by == AnnouncedBy::Count).map(|told| told.frames);
+        // Of a cut file, the times of frames that it lacks may be lacking, too.
+        let known = if info.cut.is_some() { counted.or(timeline.frames()) } else { timeline.frames().or(counted) };
         if let (Some(frames), Some(range)) = (known, &options.frames)
             && let Some(asked) = [range.start(), range.end()].into_iter().find(|frame| **frame >= frames)
         {

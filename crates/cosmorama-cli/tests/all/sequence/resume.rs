@@ -356,3 +356,19 @@ fn some_frames_of_a_turn_alone_are_another_turn() {
     let verified = text(&bench.run(&["verify", "out_#.png"]).stdout);
     assert_says(&verified, &["made by other settings than most: 2"]);
 }
+
+/// Frames of one video are made from one file, and are told apart all the same.
+#[test]
+fn a_frame_in_the_place_of_another_is_made_again() {
+    if !super::films::has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    super::films::film(&bench, "film.mkv", 4);
+    let args = ["convert", "film.mkv", "out_#.png", "--from", "equirect", "--to", "fulldome", "--size", "16"];
+    bench.succeed(&args);
+    kept(&bench, &args);
+    std::fs::copy(bench.path("out_1.png"), bench.path("out_2.png")).unwrap();
+    let told = bench.fail(1, &[&args[..], &["--resume"]].concat());
+    assert_says(&told, &["out_2.png was made with other inputs"]);
+}

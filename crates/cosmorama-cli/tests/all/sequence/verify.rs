@@ -5,7 +5,7 @@ use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
 use serde_json::{Value, json};
 
 #[cfg(feature = "video")]
-use super::films::{ffmpeg, has_ffmpeg};
+use super::films::{ffmpeg, has_ffmpeg, said};
 
 /// Frames 1 to `count`, each a little other than the one before.
 fn sequence(bench: &Bench, count: usize) {
@@ -263,4 +263,56 @@ fn no_cut_of_a_film_passes_for_a_short_film() {
             assert_eq!(told.status.code(), Some(1), "{percent} % of {codec:?}, {rate}: {}", text(&told.stdout));
         }
     }
+}
+
+/// Frames that take after a damaged one are not right either, though no decoder says so.
+#[test]
+fn frames_are_doubted_from_damage_to_the_next_key_frame() {
+    if !has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    let source = "testsrc2=size=256x128:rate=25,trim=end_frame=30";
+    ffmpeg(&bench, &["-f", "lavfi", "-i", source, "-c:v", "libx264", "-bf", "0", "-g", "10", "film.mp4"]);
+    let told = said(&bench, "film.mp4", "v", "packet=pos,size");
+    let of =
+        |name: &str| told.lines().filter_map(|line| line.strip_prefix(name)?.parse::<usize>().ok()).nth(13).unwrap();
+    let (place, size) = (of("pos="), of("size="));
+    let mut bytes = std::fs::read(bench.path("film.mp4")).unwrap();
+    bytes[place + 8..place + size].fill(0x5a);
+    std::fs::write(bench.path("film.mp4"), bytes).unwrap();
+    let report: Value = serde_json::from_slice(&bench.run(&["verify", "film.mp4", "--json"]).stdout).unwrap();
+    assert_eq!((&report["frames_with_faults"], &report["whole"]), (&json!("13-19"), &json!(23)), "{report}");
+    let args = ["convert", "film.mp4", "f_##.png", "--from", "equirect", "--to", "fulldome", "--size", "16"];
+    let held = bench.run(&[&args[..], &["--damaged", "hold"]].concat());
+    assert!(held.status.success(), "{}", text(&held.stderr));
+    assert_says(&text(&held.stderr), &["the first is frame 13", "further frames may take after them, and show traces"]);
+    // Of frames that are not read, nothing is told.
+    let some = bench.run(&["verify", "film.mp4", "--frames", "12-14", "--json"]);
+    let report: Value = serde_json::from_slice(&some.stdout).unwrap();
+    assert_eq!(report["frames_with_faults"], "13,14", "{report}");
+}
+
+#[test]
+fn a_cut_film_that_counts_no_frames_is_told_to_be_cut() {
+    if !has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    // Frame N at N² · 20 ms.
+    let source = "testsrc2=size=64x32:rate=50,trim=end_frame=120,settb=1/1000,setpts=N*N*20";
+    let vary = ["-fps_mode", "passthrough", "-enc_time_base", "1:1000", "-c:v", "libx264", "-bf", "0", "-g", "10"];
+    ffmpeg(&bench, &[&["-f", "lavfi", "-i", source][..], &vary, &["film.mkv"]].concat());
+    let bytes = std::fs::read(bench.path("film.mkv")).unwrap();
+    std::fs::write(bench.path("film.mkv"), &bytes[..bytes.len() * 6 / 10]).unwrap();
+    for damaged in ["hold", "skip"] {
+        let out = format!("{damaged}_##.png");
+        let args = ["convert", "film.mkv", &out, "--from", "equirect", "--to", "fulldome", "--size", "16"];
+        let made = bench.run(&[&args[..], &["--damaged", damaged]].concat());
+        assert!(made.status.success(), "{}", text(&made.stderr));
+        assert_says(&text(&made.stderr), &["warning: film.mkv", "cut"]);
+    }
+    let report: Value = serde_json::from_slice(&bench.run(&["verify", "film.mkv", "--json"]).stdout).unwrap();
+    let number = |name: &str| report[name].as_u64().unwrap();
+    assert!(number("whole") < number("frames") && number("frames") < 120, "{report}");
 }

@@ -73,7 +73,7 @@ impl Verification<'_> {
     /// [`ConvertError::Stopped`] if the observer ends it.
     pub fn run(&self, files: Arc<dyn Files>, observer: &mut dyn Observer) -> Result<Verified> {
         // A decoder goes on after a frame that it leaves out.
-        let files = &ChosenFiles::new(files, Choice::default(), DamagedFrames::Skip);
+        let files = &ChosenFiles::new(files, Choice::default(), DamagedFrames::Find);
         let series = series(self.pattern)?;
         let wanted = self.wanted(&series, files)?;
         let video = series.video().zip(files.videos());
@@ -107,7 +107,7 @@ impl Verification<'_> {
             tell_reasons(&mut frames, video, videos)?;
         }
         let sheet = self.sheet.map(|_| sheet::of(frames.iter().filter_map(Frame::thumbnail)));
-        Ok(Verified { frames: wanted.len(), faults: judge::faults(&frames, self.size), sheet })
+        Ok(Verified { frames: frames.len(), faults: judge::faults(&frames, self.size), sheet })
     }
 
     /// Returns the frames that there should be, in order.

@@ -38,6 +38,8 @@ struct Source {
     /// Header that all frames share.
     header: Header,
     damaged: Damaged,
+    /// Threads of the decoder; 0 for all.
+    threads: usize,
     /// Number of frames; of a stream that is read as it comes, as many as there can be.
     count: u64,
     state: Mutex<State>,
@@ -77,6 +79,8 @@ struct State {
     early: BTreeMap<u64, EncodedImage>,
     /// Frames that the decoder left out.
     left_out: BTreeSet<u64>,
+    /// Frames that were handed out.
+    shown: BTreeSet<u64>,
     /// Whether there are more frames than are announced.
     has_more: bool,
     /// Error after which there are no more frames.
@@ -211,9 +215,14 @@ impl Videos {
         let announced = source.count;
         let further = state.has_more.then(|| more_than(announced));
         // Frames that a cut file lacks may be counted by nobody.
-        let further = further.or_else(|| source.cut().filter(|_| state.faults.is_empty()));
+        let cut = source.cut().filter(|_| state.faults.is_empty()).map(|CutShort { expected, found }| {
+            VideoError::Cut { path: video.to_owned(), expected, found, is_described: true }.to_string()
+        });
+        let further = further.or(cut);
         let behind = further.map(|reason| (announced..announced + 1, reason));
-        Ok(state.faults.iter().map(ranged).chain(behind).collect())
+        let (traced, reason) = source.traces(&state);
+        let traced = traced.into_iter().map(|frames| (frames, reason.to_owned()));
+        Ok(state.faults.iter().map(ranged).chain(traced).chain(behind).collect())
     }
 
     /// Returns messages about frames that were damaged, and about frames that were not announced; an item for each video.
@@ -264,10 +273,12 @@ impl Source {
     fn film(ffmpeg: Arc<Ffmpeg>, video: &Path, damaged: DamagedFrames) -> Result<Self, VideoError> {
         let mut info = ffmpeg.probe(video)?;
         let half = ffmpeg.second_half(&info)?;
-        let damaged = match damaged {
-            DamagedFrames::Error => Damaged::Error,
-            DamagedFrames::Hold => Damaged::Hold,
-            DamagedFrames::Skip => Damaged::Skip,
+        // Several threads would not always make the same of what takes after damaged frames.
+        let (damaged, threads) = match damaged {
+            DamagedFrames::Error => (Damaged::Error, 0),
+            DamagedFrames::Hold => (Damaged::Hold, 1),
+            DamagedFrames::Skip => (Damaged::Skip, 1),
+            DamagedFrames::Find => (Damaged::Skip, 0),
         };
         let (mut frames, mut header) = (count(&ffmpeg, &info, damaged)?, described::header(&info));
         if let Some(half) = &half {
@@ -285,14 +296,13 @@ impl Source {
         }
         let content = Content::Film { ffmpeg, info: Box::new(info), half: half.map(Box::new) };
         let count = frames;
-        Ok(Self { name: video.to_owned(), content, header, damaged, count, state: Mutex::default() })
+        Ok(Self { name: video.to_owned(), content, header, damaged, threads, count, state: Mutex::default() })
     }
 
     /// Returns how a video's file is cut, if it is.
-    fn cut(&self) -> Option<String> {
+    fn cut(&self) -> Option<CutShort> {
         let Content::Film { info, .. } = &self.content else { return None };
-        let CutShort { expected, found } = info.cut?;
-        Some(VideoError::Cut { path: info.path.clone(), expected, found, is_described: true }.to_string())
+        info.cut
     }
 
     fn raw(kind: RawKind, video: &Path, files: &Arc<dyn RawFiles>) -> Result<Self, IoError> {
@@ -308,8 +318,8 @@ impl Source {
                 (info, content, u64::MAX)
             }
         };
-        let damaged = Damaged::Error;
-        Ok(Self { name: video.to_owned(), content, header, damaged, count, state: Mutex::default() })
+        let (damaged, threads) = (Damaged::Error, 0);
+        Ok(Self { name: video.to_owned(), content, header, damaged, threads, count, state: Mutex::default() })
     }
 
     fn state(&self) -> MutexGuard<'_, State> {
@@ -324,6 +334,7 @@ impl Source {
         }
         let mut state = self.state();
         state.wanted.remove(&number);
+        state.shown.insert(number);
         if let Some(image) = state.early.remove(&number) {
             return Ok(Some(image));
         }
@@ -394,8 +405,8 @@ impl Source {
         let is_all = first == 0 && info.cut.is_none();
         let frames = (!is_all).then_some(first..=last);
         let rows = state.rows.clone().filter(|_| half.is_none());
-        let options =
-            ReadOptions { frames, rows, damaged: self.damaged, memory: limits.memory, ..ReadOptions::default() };
+        let (damaged, memory, threads) = (self.damaged, limits.memory, self.threads);
+        let options = ReadOptions { frames, rows, damaged, memory, threads };
         let decoder = match half {
             Some(half) => Decoder::Pair(Box::new(PairedReader::open(ffmpeg, info, half, options)?)),
             None => Decoder::Film(Box::new(VideoReader::open(ffmpeg, info, options)?)),
@@ -426,19 +437,59 @@ impl Source {
             return Some(format!("{path}: {}", more_than(self.count)));
         }
         state.close();
-        let (first, (_, reason)) = state.faults.first_key_value()?;
+        let Some((first, (_, reason))) = state.faults.first_key_value() else {
+            let CutShort { expected, found } = self.cut().filter(|_| self.damaged != Damaged::Error)?;
+            let read = state.shown.len();
+            return Some(format!(
+                "{path}: the file is cut, with {found} of at least {expected} bytes; there may have been more frames than the {read} that are read"
+            ));
+        };
         let count: u64 = state.faults.values().map(|(count, _)| count).sum();
         let instead = if self.damaged == Damaged::Skip {
             "left out, so that what follows comes earlier than its sound"
         } else {
             "replaced by the one before"
         };
+        let traced: u64 = self.traces(&state).0.iter().map(|range| range.end - range.start).sum();
+        let further = match traced {
+            0 => String::new(),
+            1 => "; 1 further frame may take after them, and show traces".to_owned(),
+            _ => format!("; {traced} further frames may take after them, and show traces"),
+        };
         Some(format!(
-            "{path}: {count} {} damaged or missing, and {instead}; the first is frame {first} ({reason})",
+            "{path}: {count} {} damaged or missing, and {instead}; the first is frame {first} ({reason}){further}",
             if count == 1 { "frame is" } else { "frames are" }
         ))
     }
+
+    /// Returns the frames that may show traces of damaged ones, of those that were handed out, with the reason: all behind the first one
+    /// where the file's own order cannot be read.
+    fn traces(&self, state: &State) -> (Vec<Range<u64>>, &'static str) {
+        let Content::Film { ffmpeg, info, half } = &self.content else { return (Vec::new(), TRACES) };
+        let damaged: Vec<_> = state.faults.iter().map(|(first, (count, _))| *first..first + count).collect();
+        let Some(first) = damaged.first() else { return (Vec::new(), TRACES) };
+        let streams = std::iter::once(&**info).chain(half.iter().map(|half| &half.info));
+        let traced = streams.map(|info| ffmpeg.traces(info, &damaged).ok().flatten()).collect::<Option<Vec<_>>>();
+        let (traced, reason): (BTreeSet<u64>, _) = match traced {
+            Some(streams) => (streams.into_iter().flatten().collect(), TRACES),
+            None => (state.shown.range(first.end..).copied().collect(), UNSURE),
+        };
+        let mut ranges: Vec<Range<u64>> = Vec::new();
+        for frame in traced.intersection(&state.shown).copied() {
+            match ranges.last_mut() {
+                Some(last) if last.end == frame => last.end += 1,
+                _ => ranges.push(frame..frame + 1),
+            }
+        }
+        (ranges, reason)
+    }
 }
+
+/// Finding about a frame that may show traces of damaged ones.
+const TRACES: &str = "it takes after a damaged frame, and may show traces of it";
+
+/// Finding about a frame behind a damaged one, where it is not known which take after it.
+const UNSURE: &str = "a frame before it is damaged, and the file does not tell which take after that";
 
 /// Returns the complaint about frames that were not announced.
 fn more_than(announced: u64) -> String {
@@ -473,11 +524,15 @@ impl State {
 
     /// Ends the decoder, and notes its faults.
     fn close(&mut self) {
-        let noted = |Fault { frame, count, reason }: &Fault| (*frame, (*count, reason.clone()));
-        match self.reader.take() {
-            Some((Decoder::Film(reader), _)) => self.faults.extend(reader.faults().iter().map(noted)),
-            Some((Decoder::Pair(reader), _)) => self.faults.extend(reader.faults().map(noted)),
-            Some((Decoder::Raw(_), _)) | None => {}
+        let faults: Vec<Fault> = match self.reader.take() {
+            Some((Decoder::Film(reader), _)) => reader.faults().to_vec(),
+            Some((Decoder::Pair(reader), _)) => reader.faults().cloned().collect(),
+            Some((Decoder::Raw(_), _)) | None => Vec::new(),
+        };
+        for Fault { frame, count, reason } in faults {
+            // Of two streams, or of two decoders, the longer gap.
+            let known = self.faults.entry(frame).or_insert((count, reason));
+            known.0 = known.0.max(count);
         }
     }
 }

@@ -1,7 +1,9 @@
+use std::ops::Range;
+
 use cosmorama::raster::{ColourChannel, ColourMatrix, Primaries, Transfer};
 use moxcms::{
-    CicpColorPrimaries, CicpProfile, ColorDateTime, ColorProfile, DataColorSpace, LocalizableString, Matrix3d,
-    MatrixCoefficients, ProfileClass, ProfileText, RenderingIntent, ToneReprCurve, TransferCharacteristics, Xyzd,
+    CicpColorPrimaries, CicpProfile, ColorProfile, DataColorSpace, LocalizableString, Matrix3d, MatrixCoefficients,
+    ProfileClass, ProfileText, RenderingIntent, ToneReprCurve, TransferCharacteristics, Xyzd,
 };
 
 use super::{D50, colorants_of};
@@ -26,7 +28,7 @@ pub(crate) fn made(transfer: &Transfer, primaries: &Primaries) -> Option<Vec<u8>
     profile.green_trc = curve(ColourChannel::Green);
     profile.blue_trc = curve(ColourChannel::Blue);
     profile.cicp = code_points(transfer, primaries);
-    profile.encode().ok()
+    encoded(&profile)
 }
 
 /// Returns a profile for a grey file. `None` for transfer functions that a curve does not describe completely, since
@@ -38,7 +40,19 @@ pub(crate) fn made_grey(transfer: &Transfer) -> Option<Vec<u8>> {
     let mut profile = described("grey");
     profile.color_space = DataColorSpace::Gray;
     profile.gray_trc = Some(curve(transfer, ColourChannel::Green));
-    profile.encode().ok()
+    encoded(&profile)
+}
+
+/// Place of a profile's date and time in its header (ICC.1:2022, 7.2.1).
+const DATE: Range<usize> = 24..36;
+
+/// The first second of the year 2000, for all profiles: the same picture always gives the same file. moxcms writes the time of now.
+const MADE: [u8; 12] = [0x07, 0xD0, 0, 1, 0, 1, 0, 0, 0, 0, 0, 0];
+
+fn encoded(profile: &ColorProfile) -> Option<Vec<u8>> {
+    let mut bytes = profile.encode().ok()?;
+    bytes.get_mut(DATE)?.copy_from_slice(&MADE);
+    Some(bytes)
 }
 
 /// Returns the parts that all profiles share.
@@ -53,9 +67,6 @@ fn described(name: &str) -> ColorProfile {
     profile.media_white_point = Some(d50);
     profile.description = Some(text(name));
     profile.copyright = Some(text("No copyright, use freely"));
-    // A fixed date, so that the same picture always gives the same file.
-    let day = ColorDateTime { year: 2000, month: 1, day_of_the_month: 1, hours: 0, minutes: 0, seconds: 0 };
-    profile.creation_date_time = day;
     profile
 }
 
@@ -123,7 +134,8 @@ mod tests {
                 assert!(profile.primaries.unwrap().is_same(&primaries), "{primaries}: {:?}", profile.primaries);
             }
         }
-        assert_eq!(made(&Transfer::Srgb, &own), made(&Transfer::Srgb, &own));
+        assert_eq!(made(&Transfer::Srgb, &own).unwrap()[DATE], MADE);
+        assert_eq!(made_grey(&Transfer::Gamma(1.8)).unwrap()[DATE], MADE);
     }
 
     // libpng reads no others.

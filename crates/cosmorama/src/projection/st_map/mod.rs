@@ -37,8 +37,9 @@ pub struct StMapTable {
     by_direction: Tree,
 }
 
-/// Bytes of a piece in a table: its leaf, its box, and its entry in the tree with a share of the nodes above.
-const PIECE: u64 = 112;
+/// Bytes of a piece in a table: its leaf, its box, its entry in the tree with a share of the nodes above, and what is held of it while
+/// trees are built.
+const PIECE: u64 = 160;
 
 /// Returns the number of tables: of directions, and of places.
 fn tables(has_places: bool) -> u64 {
