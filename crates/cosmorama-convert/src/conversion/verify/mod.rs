@@ -43,7 +43,7 @@ pub struct Verification<'a> {
 /// Result of a verification.
 #[derive(Clone, Debug)]
 pub struct Verified {
-    /// Number of frames that there should be.
+    /// Number of frames that there should be, with a further one where a video has more than it announces, or its file is cut.
     pub frames: usize,
     /// Faults of each frame that has some, in the order of the frames.
     pub faults: Vec<Faults>,

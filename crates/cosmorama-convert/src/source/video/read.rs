@@ -79,8 +79,8 @@ struct State {
     early: BTreeMap<u64, EncodedImage>,
     /// Frames that the decoder left out.
     left_out: BTreeSet<u64>,
-    /// Frames that were handed out.
-    shown: BTreeSet<u64>,
+    /// Frames that were asked for.
+    asked: BTreeSet<u64>,
     /// Whether there are more frames than are announced.
     has_more: bool,
     /// Error after which there are no more frames.
@@ -334,7 +334,7 @@ impl Source {
         }
         let mut state = self.state();
         state.wanted.remove(&number);
-        state.shown.insert(number);
+        state.asked.insert(number);
         if let Some(image) = state.early.remove(&number) {
             return Ok(Some(image));
         }
@@ -439,7 +439,7 @@ impl Source {
         state.close();
         let Some((first, (_, reason))) = state.faults.first_key_value() else {
             let CutShort { expected, found } = self.cut().filter(|_| self.damaged != Damaged::Error)?;
-            let read = state.shown.len();
+            let read = state.asked.len();
             return Some(format!(
                 "{path}: the file is cut, with {found} of at least {expected} bytes; there may have been more frames than the {read} that are read"
             ));
@@ -462,7 +462,7 @@ impl Source {
         ))
     }
 
-    /// Returns the frames that may show traces of damaged ones, of those that were handed out, with the reason: all behind the first one
+    /// Returns the frames that may show traces of damaged ones, of those that were asked for, with the reason: all behind the first one
     /// where the file's own order cannot be read.
     fn traces(&self, state: &State) -> (Vec<Range<u64>>, &'static str) {
         let Content::Film { ffmpeg, info, half } = &self.content else { return (Vec::new(), TRACES) };
@@ -472,10 +472,10 @@ impl Source {
         let traced = streams.map(|info| ffmpeg.traces(info, &damaged).ok().flatten()).collect::<Option<Vec<_>>>();
         let (traced, reason): (BTreeSet<u64>, _) = match traced {
             Some(streams) => (streams.into_iter().flatten().collect(), TRACES),
-            None => (state.shown.range(first.end..).copied().collect(), UNSURE),
+            None => (state.asked.range(first.end..).copied().collect(), UNSURE),
         };
         let mut ranges: Vec<Range<u64>> = Vec::new();
-        for frame in traced.intersection(&state.shown).copied() {
+        for frame in traced.intersection(&state.asked).copied() {
             match ranges.last_mut() {
                 Some(last) if last.end == frame => last.end += 1,
                 _ => ranges.push(frame..frame + 1),
