@@ -21,9 +21,9 @@ mod target;
 
 pub use colour::{InputTransfer, LayerRules, ThinAlpha, contents};
 pub use conversion::{
-    Checked, CostedFiles, Explanation, ExplanationSettings, Fault, Faults, FilterReport, FilterTrial, FilterTrials,
-    Observer, PathExplanation, Quiet, Radiance, Report, SequenceCost, SheetLayout, Stop, Verification, Verified, Work,
-    WorldHarmonics, WorldLight, WorldSuns, WorldTable, check_sheet, threads,
+    Checked, CostedFiles, CostedMemory, Explanation, ExplanationSettings, Fault, Faults, FilterReport, FilterTrial,
+    FilterTrials, Observer, PathExplanation, Quiet, Radiance, Report, SequenceCost, SheetLayout, Stop, Verification,
+    Verified, Work, WorldHarmonics, WorldLight, WorldSuns, WorldTable, check_sheet, threads,
 };
 pub use detect::{Continuity, FacePixels, GivenFaces, Likely, damage_of, light_of, likely};
 pub use diagnostic::{

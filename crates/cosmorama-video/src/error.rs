@@ -103,8 +103,8 @@ pub enum VideoError {
     },
     /// There are fewer frames than the file announces.
     #[error(
-        "{}: the video ends after frame {}, but {announced} frames were announced; frame {} is the first that is missing; make \
-         the video again, or choose --damaged hold or skip", path.display(), found.saturating_sub(1), found
+        "{}: the video ends before frame {found}, but {announced} frames were announced; make the video again, or choose --damaged hold \
+         or skip", path.display()
     )]
     FewerFrames {
         /// The file.

@@ -45,7 +45,7 @@ pub(crate) struct ExplainArgs {
     pub(crate) camera: CameraArgs,
     #[command(flatten)]
     pub(crate) shutter: ShutterArgs,
-    /// Which frames of a moving camera: 5, 1-10 or 1-3,5,7-20:2 [default: all]
+    /// Which frames of a moving camera or a show: 5, 1-10 or 1-3,5,7-20:2 [default: all]
     #[arg(long, value_name = "LIST", value_parser = frame_list, allow_hyphen_values = true, hide_short_help = true, help_heading = "Geometry")]
     pub(crate) frames: Option<FrameList>,
     /// Tell what goes wrong if the camera leaves the world's place by up to so many metres

@@ -54,6 +54,7 @@ impl Conversion {
             pool.install(|| stages.alone(Stage::Decode, check))?;
         }
         videos::check(&settings, &job)?;
+        diagnostics.extend(videos::idle(&settings, &job));
         let diagnostics = diagnostics.clone();
         Ok(Checked { settings, content, job, pool, diagnostics, stages, start, allowed })
     }

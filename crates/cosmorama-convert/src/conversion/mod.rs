@@ -14,7 +14,7 @@ mod world_light;
 
 pub use check::Checked;
 pub use check::threads;
-pub use explanation::{CostedFiles, Explanation, ExplanationSettings, PathExplanation, SequenceCost};
+pub use explanation::{CostedFiles, CostedMemory, Explanation, ExplanationSettings, PathExplanation, SequenceCost};
 pub use filters::{FilterReport, FilterTrial, FilterTrials};
 pub use observer::{Observer, Quiet, Stop, Work};
 pub use report::Report;

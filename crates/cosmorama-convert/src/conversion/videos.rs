@@ -2,16 +2,24 @@
 
 use std::path::PathBuf;
 
-use crate::diagnostic::{Diagnostic, Result};
+use crate::diagnostic::{Code, DAMAGED, Diagnostic, Result};
 use crate::job::ConvertJob;
 use crate::settings::Conversion;
-use crate::source::video::{MadeVideos, VideoPlan, VideoSource};
+use crate::source::video::{DamagedFrames, MadeVideos, VideoPlan, VideoSource};
 use crate::target::TargetFile;
 
 /// Checks the settings of the videos that are made, if there are any.
 pub(super) fn check(settings: &Conversion, job: &ConvertJob) -> Result<()> {
     let outputs = outputs(job);
     if outputs.is_empty() { Ok(()) } else { MadeVideos::check(&outputs, &plan(settings, job), job.files.videos()) }
+}
+
+/// Returns a warning where an answer to damaged frames is given, and no input is a video.
+pub(super) fn idle(settings: &Conversion, job: &ConvertJob) -> Option<Diagnostic> {
+    let is_video = |job: &ConvertJob| job.input.present().any(|(view, ..)| view.files.video().is_some());
+    let is_idle = settings.video.damaged != DamagedFrames::Error && !job.layers().any(is_video);
+    let message = || format!("{DAMAGED} has no effect: no input is a video; a picture that is damaged is an error");
+    is_idle.then(|| Diagnostic::warning(Code::NoEffect, message()))
 }
 
 /// Starts the encoders of the videos that are made.

@@ -59,6 +59,8 @@ settings! {
     Scale "scale" SCALE,
     /// Distance of the frames whose maps of light are computed, or that a contact sheet shows.
     Every "every" EVERY,
+    /// Answer to damaged frames of a video.
+    Damaged "damaged" DAMAGED,
     /// Filter.
     Filter "filter" FILTER,
     /// Rule by which labels are chosen.

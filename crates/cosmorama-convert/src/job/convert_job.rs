@@ -98,7 +98,8 @@ const LIGHT: Format = Format::Exr;
 /// Part of the memory, at most, that a picture decoded beforehand takes.
 pub(super) const DECODED_PART: u64 = 8;
 
-fn is_balanced(filter: &FilterSettings) -> bool {
+/// Returns whether a filter should keep light, which weights that depend on the light do not.
+pub(crate) fn is_balanced(filter: &FilterSettings) -> bool {
     filter.kind == FilterKind::Ewa && filter.kernel == Kernel::LIGHT && !filter.anti_ringing
 }
 

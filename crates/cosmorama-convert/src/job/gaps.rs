@@ -71,13 +71,17 @@ pub(crate) fn find_gaps(
         let geometry: Vec<View> = targets.iter().map(|target| target.view.clone()).collect();
         let mut needs = Needs::of(nominal, &geometry, filter, Accuracy::Bounds);
         let sees_any = needs.views.iter().any(|need| need.seen.is_some());
+        views.iter_mut().zip(&needs.views).for_each(|(view, need)| view.wanted |= need.read.is_some());
         if sees_any && views.iter().zip(&needs.views).all(holds) {
             is_held = true;
         } else {
-            needs = Needs::of(nominal, &geometry, filter, Accuracy::Exact);
+            needs = Needs::of(nominal, &geometry, filter, Accuracy::Seen);
+            // Only where the filter may read beyond a file, it matters what it reads.
+            if views.iter().zip(&needs.views).any(|(view, need)| frayed(view, need).is_some()) {
+                needs = Needs::of(nominal, &geometry, filter, Accuracy::Exact);
+            }
         }
-        for ((view, need), lacking) in views.iter_mut().zip(&needs.views).zip(&mut lacking) {
-            view.wanted |= need.read.is_some();
+        for ((view, need), lacking) in views.iter().zip(&needs.views).zip(&mut lacking) {
             lacking.add(view, need, frames);
         }
         if let Some(found) = needs.uncovered {

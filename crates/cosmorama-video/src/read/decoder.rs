@@ -34,6 +34,8 @@ pub(super) struct Decoder {
     has_begun: bool,
     /// Whether frames before it are decoded and dropped.
     is_partial: bool,
+    /// Whether something was heard before it: frames may be damaged, or lack others before the place where decoding began.
+    is_doubtful: bool,
     /// Whether a message of an error is about the frame that comes next, which is painted over and given all the same.
     is_painted: bool,
 }
@@ -102,6 +104,7 @@ impl Decoder {
             rows,
             has_begun: false,
             is_partial: start.from.is_some(),
+            is_doubtful: false,
             is_painted,
         })
     }
@@ -110,21 +113,26 @@ impl Decoder {
     pub(super) fn next(&mut self, info: &VideoInfo, pool: &FramePool) -> Result<Next, VideoError> {
         let Some(image) = self.image(info, pool)? else { return self.end() };
         let (mut is_corrupt, mut complaint) = (false, None);
+        let is_before = self.is_partial && !self.has_begun;
         let time = loop {
             match self.log.next() {
                 Some(Event::Frame(time)) => break time,
-                Some(Event::Corrupt) => is_corrupt = self.has_begun || !self.is_partial,
-                Some(Event::Complaint(text)) if self.has_begun || !self.is_partial => {
+                Some(Event::Corrupt | Event::Complaint(_)) if is_before => self.is_doubtful = true,
+                Some(Event::Corrupt) => is_corrupt = true,
+                Some(Event::Complaint(text)) => {
                     is_corrupt |= self.is_painted;
                     complaint.get_or_insert(text);
                 }
-                // Frames before those that are wanted may be damaged, or lack others before them.
-                Some(Event::Complaint(_)) => {}
                 None => break None,
             }
         };
         self.has_begun = true;
         Ok(Next::Frame(Decoded { image, time, is_corrupt, complaint }))
+    }
+
+    /// Returns once whether something was heard before the first frame that is wanted.
+    pub(super) fn take_doubt(&mut self) -> bool {
+        std::mem::take(&mut self.is_doubtful)
     }
 
     fn image(&mut self, info: &VideoInfo, pool: &FramePool) -> Result<Option<EncodedImage>, VideoError> {

@@ -3,6 +3,7 @@
 mod decoder;
 mod filters;
 mod pair;
+mod preceding;
 mod reader;
 mod traces;
 

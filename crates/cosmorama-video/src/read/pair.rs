@@ -130,6 +130,11 @@ impl PairedReader {
     pub fn faults(&self) -> impl Iterator<Item = &Fault> {
         self.first.faults().iter().chain(self.second.faults())
     }
+
+    /// Returns damaged frames of either stream before the first that is asked for; see [`VideoReader::faults_before`].
+    pub fn faults_before(&self) -> impl Iterator<Item = &Fault> {
+        self.first.faults_before().iter().chain(self.second.faults_before())
+    }
 }
 
 /// Puts two frames into one picture.

@@ -1,5 +1,6 @@
 use super::decoder::{Decoded, Decoder, Ended, Next, Start};
 use super::filters::{Pixels, Raw};
+use super::preceding::{self, Preceding};
 use super::{Damaged, Fault, FrameCondition, ReadOptions, VideoFrame};
 use crate::{Announced, AnnouncedBy, CutShort, Ffmpeg, Timeline, VideoError, VideoInfo};
 use cosmorama::raster::{EncodedImage, FramePool};
@@ -26,7 +27,11 @@ pub struct VideoReader {
     /// Time of the frame before.
     last: i64,
     may_restart: bool,
+    /// Whether frames before the first that is asked for are looked at where something is heard of them.
+    looks_before: bool,
     faults: Vec<Fault>,
+    /// Damaged frames before the first that is asked for.
+    before: Vec<Fault>,
 }
 
 /// Frame with its number.
@@ -96,8 +101,19 @@ impl VideoReader {
             total: None,
             last: 0,
             may_restart: start.seek.is_some(),
+            looks_before: true,
             faults: Vec::new(),
+            before: Vec::new(),
         })
+    }
+
+    /// Starts to decode without a look at frames before the first that is asked for.
+    pub(super) fn looking_no_further(
+        ffmpeg: &Ffmpeg,
+        info: &VideoInfo,
+        options: ReadOptions,
+    ) -> Result<Self, VideoError> {
+        Ok(Self { looks_before: false, ..Self::open(ffmpeg, info, options)? })
     }
 
     /// Returns the next frame; `None` after the last.
@@ -123,6 +139,11 @@ impl VideoReader {
     /// Returns the frames so far that were held or skipped.
     pub fn faults(&self) -> &[Fault] {
         &self.faults
+    }
+
+    /// Returns damaged frames before the first that is asked for, after which some that are may take, and show traces.
+    pub fn faults_before(&self) -> &[Fault] {
+        &self.before
     }
 
     /// Returns the times of the frames.
@@ -181,6 +202,9 @@ impl VideoReader {
                 continue;
             }
             self.may_restart = false;
+            if decoder.take_doubt() && self.looks_before {
+                self.look_before((index, &mut frame))?;
+            }
             if let Some(text) = frame.complaint.take() {
                 // The first names the cause.
                 self.complaint.get_or_insert(Complaint { frame: index, text });
@@ -199,6 +223,23 @@ impl VideoReader {
         // The old one is ended first.
         self.decoder = None;
         self.decoder = Some(Decoder::start(&self.ffmpeg, &self.info, &self.options, start)?);
+        Ok(())
+    }
+
+    /// Finds out whether frames up to the first one that is asked for are damaged.
+    fn look_before(&mut self, (index, frame): (u64, &mut Decoded)) -> Result<(), VideoError> {
+        let (first, last) = self.options.frames.as_ref().map_or((0, u64::MAX), |range| range.clone().into_inner());
+        let of = (&self.ffmpeg, &self.info, &self.timeline);
+        let Preceding { faults, traced, own } = preceding::find(of, &self.options, (first, last))?;
+        if let (Damaged::Error, Some(Fault { frame, reason, .. })) = (self.options.damaged, faults.first()) {
+            let reason = format!("{reason}; frame {traced}, which is asked for, may take after it");
+            return self.tell(*frame, 1, reason);
+        }
+        if let Some(Fault { reason, .. }) = own {
+            frame.is_corrupt |= index == first;
+            frame.complaint = Some(reason);
+        }
+        self.before = faults;
         Ok(())
     }
 

@@ -32,7 +32,7 @@ enum Doubtful {
 }
 
 /// Returns the frames that may show traces of damaged ones, from all in the order of decoding.
-fn traces(coded: &[CodedFrame], timeline: &Timeline, damaged: &[Range<u64>]) -> Vec<u64> {
+pub(super) fn traces(coded: &[CodedFrame], timeline: &Timeline, damaged: &[Range<u64>]) -> Vec<u64> {
     let numbers: Vec<u64> = coded.iter().map(|frame| timeline.frame(frame.time)).collect();
     let damaged = disjoint(damaged);
     let lost = begins_behind_lost(&numbers, &damaged);

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use cosmorama_video::{Damaged, Ffmpeg, FrameCondition, ReadOptions, VideoError, VideoReader};
+use cosmorama_video::{Damaged, Fault, Ffmpeg, FrameCondition, ReadOptions, VideoError, VideoReader};
 
 use crate::common::{difference, ffmpeg, frames, moving, of, probed, run};
 
@@ -132,6 +132,61 @@ fn damage_in_h264_is_named() {
     damage(&path, 30);
     let error = frames(&ffmpeg, &path, with(Damaged::Error)).unwrap_err();
     assert!(matches!(error, VideoError::DamagedFrame { frame: 30, .. }), "{error}");
+}
+
+/// What takes after a damaged frame is not given for whole because that frame is not asked for.
+#[test]
+fn damage_before_the_first_frame_that_is_asked_for_is_told_as_far_as_it_reaches() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    // With a seek, and without.
+    for (number, key) in [(85, 100), (31, 40)] {
+        let path = folder.path().join(format!("{number}.mp4"));
+        run(&format!("{} -c:v libx264 -bf 0 -g 20", moving(256, 128, "25", 150)), &path);
+        let whole = frames(&ffmpeg, &path, ReadOptions::default()).unwrap();
+        damage(&path, number);
+        let damaged = number as u64;
+        let read = |first: u64, last: u64, damaged: Damaged| {
+            let options = ReadOptions { damaged, ..of(first, last) };
+            let mut reader = VideoReader::open(&ffmpeg, &ffmpeg.probe(&path)?, options)?;
+            let mut found = Vec::new();
+            while let Some(frame) = reader.next_frame()? {
+                found.push(frame.index);
+            }
+            let numbers = |faults: &[Fault]| faults.iter().map(|fault| fault.frame).collect::<Vec<_>>();
+            Ok((found, numbers(reader.faults()), numbers(reader.faults_before())))
+        };
+        let error = read(damaged + 3, key + 5, Damaged::Error).unwrap_err();
+        assert!(matches!(error, VideoError::DamagedFrame { frame, .. } if frame == damaged), "{error}");
+        assert!(error.to_string().contains(&format!("frame {}, which is asked for", damaged + 3)), "{error}");
+        for answer in [Damaged::Hold, Damaged::Skip] {
+            let (found, own, before) = read(damaged + 3, key + 5, answer).unwrap();
+            assert_eq!((found, own, before), ((damaged + 3..=key + 5).collect(), vec![], vec![damaged]));
+        }
+        // It is the first that is asked for itself.
+        let error = read(damaged, key, Damaged::Error).unwrap_err();
+        assert!(matches!(error, VideoError::DamagedFrame { frame, .. } if frame == damaged), "{error}");
+        let (found, own, before) = read(damaged, key, Damaged::Skip).unwrap();
+        assert_eq!((found, own, before), ((damaged + 1..=key).collect(), vec![damaged], vec![]));
+        // From the next key frame on, and before it, all is whole.
+        assert!(frames(&ffmpeg, &path, of(key, key + 30)).unwrap() == whole[key as usize..=key as usize + 30]);
+        assert!(frames(&ffmpeg, &path, of(damaged - 15, damaged - 1)).unwrap() == whole[number - 15..number]);
+    }
+}
+
+/// Decoders that begin within a film complain of frames that lack others before that place, which is no damage.
+#[test]
+fn frames_of_open_groups_are_whole_wherever_reading_begins() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("open.mp4");
+    let open = "-c:v libx264 -g 12 -bf 3 -x264-params open_gop=1:b-pyramid=2:scenecut=0";
+    run(&format!("{} {open}", moving(128, 64, "25", 150)), &path);
+    let whole = frames(&ffmpeg, &path, ReadOptions::default()).unwrap();
+    for first in [1, 12, 23, 24, 25, 35, 47, 50, 59, 60, 61, 70, 71, 72, 73, 84, 95, 107, 120, 133, 140] {
+        let some = frames(&ffmpeg, &path, of(first, first + 5)).unwrap();
+        assert!(some == whole[first as usize..=first as usize + 5], "{first}");
+    }
 }
 
 /// The second and the fourth trap: the file ends early, and with it, silently, the video.

@@ -1,46 +1,57 @@
-use cosmorama_convert::{CostedFiles, SequenceCost};
+use cosmorama_convert::{CostedFiles, CostedMemory, SequenceCost};
 use serde_json::{Value, json};
 
-/// Frames of a show, for which hours and disk are told.
-const SHOW: u64 = 50_000;
+/// Frames of a show, for which hours and disk are told where no others are known.
+const SHOW: usize = 50_000;
 
-/// Tells the costs of a sequence, a line for each kind of files.
-pub(super) fn text(costs: &[SequenceCost]) -> String {
-    let mut text = "\n".to_owned();
-    for cost in costs {
-        text += &format!(
-            "cost     {}: {} for a picture, {} for a sequence; about {} frames a core-hour; {} of disk for 1,000 frames\n",
+/// Tells the costs of so many frames, two lines for each kind of files.
+pub(super) fn text(costs: &[SequenceCost], frames: Option<usize>) -> String {
+    let frames = frames.unwrap_or(SHOW);
+    let of = |cost: &SequenceCost| {
+        format!(
+            "cost     {}: {} for a picture, {} for a sequence; about {} frames a core-hour; {} of disk for 1,000 frames\n         {frames} {}: \
+             about {} core-hours, {} of disk\n",
             name(cost.files),
-            mebibytes(cost.picture_bytes),
-            mebibytes(cost.job_bytes),
+            memory(cost.picture),
+            memory(cost.sequence),
             about(cost.frames_a_core_hour()),
-            gigabytes(1000 * cost.frame_bytes)
-        );
-    }
-    if let Some(cost) = costs.first() {
-        text += &format!(
-            "         {SHOW} frames, {}: about {} core-hours, {} of disk\n",
-            name(cost.files),
-            about(SHOW as f64 * cost.cpu_seconds / 3600.0),
-            gigabytes(SHOW * cost.frame_bytes)
-        );
-    }
-    text
+            gigabytes(1000 * cost.frame_bytes),
+            if frames == 1 { "frame" } else { "frames" },
+            about(core_hours(cost, frames)),
+            gigabytes((frames as u64).saturating_mul(cost.frame_bytes))
+        )
+    };
+    ["\n".to_owned()].into_iter().chain(costs.iter().map(of)).collect()
 }
 
-/// Returns the costs for programs.
-pub(super) fn json(costs: &[SequenceCost]) -> Value {
+/// Returns the costs of so many frames for programs.
+pub(super) fn json(costs: &[SequenceCost], frames: Option<usize>) -> Value {
+    let frames = frames.unwrap_or(SHOW);
     let of = |cost: &SequenceCost| {
         json!({
             "files": name(cost.files),
-            "picture_memory_bytes": cost.picture_bytes,
-            "sequence_memory_bytes": cost.job_bytes,
+            "picture_memory_bytes": cost.picture.bytes,
+            "picture_memory_is_allowed": cost.picture.is_allowed,
+            "sequence_memory_bytes": cost.sequence.bytes,
+            "sequence_memory_is_allowed": cost.sequence.is_allowed,
             "cpu_seconds_a_frame": cost.cpu_seconds,
             "frames_a_core_hour": cost.frames_a_core_hour(),
             "disk_bytes_a_frame": cost.frame_bytes,
+            "frames": frames,
+            "core_hours": core_hours(cost, frames),
+            "disk_bytes": (frames as u64).saturating_mul(cost.frame_bytes),
         })
     };
     costs.iter().map(of).collect()
+}
+
+fn core_hours(cost: &SequenceCost, frames: usize) -> f64 {
+    frames as f64 * cost.cpu_seconds / 3600.0
+}
+
+fn memory(memory: CostedMemory) -> String {
+    let refused = if memory.is_allowed { "" } else { " (refused: more than --memory allows)" };
+    format!("{} MiB{refused}", memory.bytes.div_ceil(1 << 20))
 }
 
 fn name(files: CostedFiles) -> &'static str {
@@ -55,10 +66,6 @@ fn about(amount: f64) -> String {
     // That of the second digit.
     let decimals = 1.0 - amount.max(1e-9).log10().floor();
     format!("{amount:.*}", decimals.max(0.0) as usize)
-}
-
-fn mebibytes(bytes: u64) -> String {
-    format!("{} MiB", bytes.div_ceil(1 << 20))
 }
 
 /// Formats an amount of disk in units of powers of ten, as disks are sold.

@@ -71,9 +71,9 @@ pub(super) fn run(mut args: ExplainArgs, console: &mut Console) -> Result<ExitCo
         found.push(report);
     }
     let costs = explanation.costs(&worlds, &found);
-    text += &cost::text(&costs);
+    text += &cost::text(&costs, explanation.frames());
     if let Some(first) = reports.first_mut() {
-        first["cost"] = cost::json(&costs);
+        first["cost"] = cost::json(&costs, explanation.frames());
     }
     if let Some(path) = &path {
         text += &path_text(path, has_input);

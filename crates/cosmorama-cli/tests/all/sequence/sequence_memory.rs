@@ -1,6 +1,7 @@
 //! That sequences keep what `--memory` promises.
 
 use crate::bench::{Bench, assert_says, picture};
+use crate::sequence::films::{ffmpeg, has_ffmpeg};
 use serde_json::Value;
 
 #[test]
@@ -170,4 +171,91 @@ fn canvases_cost_what_files_hold_of_them() {
     assert!(held < 64.0, "{held} MiB");
     let told = bench.succeed(&["explain", "part.png", "--from", from, "--to", "fulldome", "--size", "64"]);
     assert!(told.contains("part.png  16x16"), "{told}");
+}
+
+/// Memory of a picture and of a sequence that `explain` tells, of 8 bits and of halves, in MiB.
+fn explained(bench: &Bench, args: &[&str]) -> [[f64; 2]; 2] {
+    let told = bench.succeed(&[&["explain"], args, &["--threads", "2", "--json"]].concat());
+    let report: Value = serde_json::from_str(&told).unwrap();
+    [0, 1].map(|files| {
+        ["picture_memory_bytes", "sequence_memory_bytes"]
+            .map(|key| report[0]["cost"][files][key].as_f64().unwrap() / f64::from(1 << 20))
+    })
+}
+
+/// Asserts that `explain` tells of a picture and of a sequence what their conversions tell, in 8 bits and in halves.
+fn assert_explained(bench: &Bench, picture: Option<&str>, sequence: &str, args: &[&str]) {
+    let [bytes, halves] = explained(bench, &[&[picture.unwrap_or(sequence)], args].concat());
+    for ([alone, many], (extension, depth)) in [(bytes, ("png", "8")), (halves, ("exr", "half"))] {
+        let converted = |input: &str, output: &str| {
+            let output = format!("{output}.{extension}");
+            let convert = ["convert", input, &output, "--depth", depth, "--missing", "black"];
+            let [told, _] = estimate_and_peak(bench, &[&convert[..], args].concat());
+            told
+        };
+        let one = picture.map(|picture| (alone, converted(picture, "o")));
+        for (explained, told) in one.into_iter().chain([(many, converted(sequence, "o_##"))]) {
+            let is_right = (0.97..1.1).contains(&(explained / told));
+            assert!(is_right, "{sequence}, {args:?}, {extension}: {explained} MiB explained, {told} told");
+        }
+    }
+}
+
+#[test]
+fn memory_is_explained_as_conversions_tell_it() {
+    let bench = Bench::new();
+    for frame in 1..=9 {
+        bench.save(&format!("sky_{frame}.png"), &picture(frame, 1024, 512));
+    }
+    let sky = ["--from", "equirect", "--size", "512"];
+    assert_explained(&bench, Some("sky_1.png"), "sky_#.png", &[&sky[..], &["--to", "fulldome:tilt=20"]].concat());
+    let deep = ["convert", "sky_#.png", "deep_#.png", "--depth", "16", "--from", "equirect", "--to", "equirect"];
+    bench.succeed(&deep);
+    assert_explained(&bench, Some("deep_1.png"), "deep_#.png", &[&sky[..], &["--to", "fulldome:tilt=20"]].concat());
+    // What a map's picture shows beside the lens is nowhere.
+    bench.succeed(&[
+        "convert",
+        "sky_1.png",
+        "map.exr",
+        "--from",
+        "equirect",
+        "--to",
+        "fulldome",
+        "--size",
+        "512",
+        "--st-map",
+    ]);
+    let map = ["--from", "equirect", "--to", "st-map:file=map.exr"];
+    assert_explained(&bench, Some("sky_1.png"), "sky_#.png", &map);
+    if has_ffmpeg() {
+        ffmpeg(&bench, &["-i", "sky_%d.png", "-pix_fmt", "yuv420p", "-c:v", "libx264", "film.mp4"]);
+        assert_explained(&bench, None, "film.mp4", &[&sky[..], &["--to", "fulldome:tilt=20"]].concat());
+    }
+}
+
+#[test]
+fn explanations_hold_memory_and_frames_against_what_is_asked() {
+    let bench = Bench::new();
+    bench.save("sky.png", &picture(1, 64, 32));
+    let dome = ["sky.png", "--from", "equirect", "--to", "fulldome:tilt=20", "--size", "2048", "--memory", "100M"];
+    let text = bench.succeed(&[&["explain"], &dome[..], &["--frames", "1-1200"]].concat());
+    let [bytes, halves] = ["PNG of 8 bits", "OpenEXR halves"]
+        .map(|name| text.lines().find(|line| line.contains(name)).unwrap_or_else(|| panic!("no {name}: {text}")));
+    assert!(
+        !bytes.contains("refused") && halves.matches("(refused: more than --memory allows)").count() == 2,
+        "{text}"
+    );
+    assert_eq!(text.matches("1200 frames: about").count(), 2, "{text}");
+    let convert = |output, depth| [&["convert", dome[0], output, "--depth", depth], &dome[1..]].concat();
+    bench.succeed(&convert("o.png", "8"));
+    assert_says(&bench.fail(1, &convert("o.exr", "half")), &["a frame needs about", "--memory"]);
+    let json: Value = serde_json::from_str(&bench.succeed(&[&["explain"], &dome[..], &["--json"]].concat())).unwrap();
+    let cost = &json[0]["cost"];
+    assert_eq!(
+        (&cost[0]["picture_memory_is_allowed"], &cost[1]["picture_memory_is_allowed"]),
+        (&true.into(), &false.into())
+    );
+    assert_eq!(cost[0]["frames"], 50_000);
+    let hours = |key: &str| cost[0][key].as_f64().unwrap();
+    assert!((hours("core_hours") * 3600.0 / hours("cpu_seconds_a_frame") - 50_000.0).abs() < 0.1);
 }

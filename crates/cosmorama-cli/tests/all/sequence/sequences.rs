@@ -405,3 +405,16 @@ fn a_frame_far_from_all_others_is_no_part_of_a_sequence() {
     let told = bench.fail(1, &["convert", "sky_#.png", "out_#.png", "--from", "equirect", "--to", "fulldome"]);
     assert_says(&told, &["the first frame is 1 and the last 999999999", "too far apart", "--frames"]);
 }
+
+/// Without a video, nobody needs an answer to its damaged frames.
+#[test]
+fn an_answer_to_damaged_frames_of_pictures_is_told_to_be_idle() {
+    let bench = Bench::new();
+    bench.save("sky.png", &picture(1, 32, 16));
+    let args = ["convert", "sky.png", "o.png", "--from", "equirect", "--to", "fulldome", "--size", "16", "--damaged"];
+    let held = bench.run(&[&args[..], &["hold"]].concat());
+    assert!(held.status.success());
+    assert_says(&text(&held.stderr), &["warning: --damaged has no effect: no input is a video"]);
+    let default = bench.run(&[&args[..], &["error", "-y"]].concat());
+    assert!(default.status.success() && !text(&default.stderr).contains("--damaged"), "{}", text(&default.stderr));
+}

@@ -291,6 +291,17 @@ fn frames_are_doubted_from_damage_to_the_next_key_frame() {
     let some = bench.run(&["verify", "film.mp4", "--frames", "12-14", "--json"]);
     let report: Value = serde_json::from_slice(&some.stdout).unwrap();
     assert_eq!(report["frames_with_faults"], "13,14", "{report}");
+    // Frames that take after one that is not read are not passed on for whole.
+    let behind = bench.run(&["verify", "film.mp4", "--frames", "15-25", "--json"]);
+    let report: Value = serde_json::from_slice(&behind.stdout).unwrap();
+    assert_eq!((&report["frames_with_faults"], &report["whole"]), (&json!("15-19"), &json!(6)), "{report}");
+    let refused = bench.fail(1, &[&args[..], &["-y", "--frames", "15-22"]].concat());
+    assert_says(&refused, &["frame 13 is damaged", "frame 15, which is asked for, may take after it"]);
+    let held = bench.run(&[&args[..], &["-y", "--frames", "18-22", "--damaged", "hold"]].concat());
+    assert!(held.status.success(), "{}", text(&held.stderr));
+    assert_says(&text(&held.stderr), &["2 frames may take after frame 13, which is damaged", "show traces"]);
+    let whole = bench.run(&[&args[..], &["-y", "--frames", "20-25"]].concat());
+    assert!(whole.status.success() && !text(&whole.stderr).contains("damaged"), "{}", text(&whole.stderr));
 }
 
 #[test]

@@ -2,14 +2,16 @@
 
 use std::collections::HashSet;
 
-use cosmorama::explain;
-use cosmorama::raster::{Channels, Depth};
+use cosmorama::explain::Report;
+use cosmorama::filter::FilterKind;
+use cosmorama::raster::{Channels, Depth, FixedCodec, FixedDecoder, Rgba};
+use cosmorama::render::Arithmetic;
 use cosmorama::world::World;
-use cosmorama_io::Format;
+use cosmorama_io::{Format, Header};
 
 use super::Explanation;
 use crate::input::{Input, InputView};
-use crate::job::{FrameNeeds, Held, are_too_large, compressed, footprint_bytes, program_bytes, with_reserve};
+use crate::job::{FrameNeeds, Held, are_too_large, compressed, footprint_bytes, is_balanced, is_torn, pixels_in};
 use crate::source::memory_budget::{area, read_bytes};
 use crate::target::Picture;
 
@@ -30,11 +32,20 @@ pub struct SequenceCost {
     /// Processor seconds of a frame, all threads added.
     pub cpu_seconds: f64,
     /// Memory of a run that makes a single picture.
-    pub picture_bytes: u64,
+    pub picture: CostedMemory,
     /// Memory of a run that makes many frames, with as many threads as there are now.
-    pub job_bytes: u64,
+    pub sequence: CostedMemory,
     /// Disk for a frame.
     pub frame_bytes: u64,
+}
+
+/// Memory of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CostedMemory {
+    /// Bytes.
+    pub bytes: u64,
+    /// Whether so many may be taken; the run is refused else.
+    pub is_allowed: bool,
 }
 
 impl SequenceCost {
@@ -88,53 +99,134 @@ impl CostedFiles {
         let depth = if self == Self::EightBits { Depth::Eight } else { Depth::Half };
         (Channels::Rgb.count() * depth.bytes()) as u64
     }
+}
 
-    /// Returns how pictures are held. Integers take inputs of 8 bits without alpha; planned ones are taken for such.
-    fn held(self, input: &Input) -> Held {
-        let mut headers = input.present().map(|(_, header, _)| header);
-        let is_plain = headers.all(|header| header.depth == Depth::Eight && !header.channels.has_alpha());
-        if self == Self::EightBits && is_plain { Held::INTEGERS } else { Held::of_samples(self.pixel_bytes()) }
-    }
+/// Manner in which pictures are made, and held meanwhile.
+#[derive(Clone, Copy)]
+struct Making {
+    /// Of a picture that is made alone.
+    alone: Held,
+    /// Of a frame whose geometry is kept.
+    planned: Held,
+    arithmetic: Arithmetic,
+}
+
+/// Parts of a frame, and of what it is made.
+struct Frame<'a> {
+    /// Views that a picture needs.
+    input: Input,
+    worlds: &'a [World],
+    reports: &'a [Report],
+    /// Sizes of its files.
+    sizes: Vec<(usize, usize)>,
 }
 
 impl Explanation {
-    /// Returns the costs of making all pictures, frame by frame, by their reports.
-    pub fn costs(&self, worlds: &[World], reports: &[explain::Report]) -> Vec<SequenceCost> {
-        let input = self.needed(reports);
-        CostedFiles::ALL.into_iter().map(|files| self.cost(files, &input, worlds, reports)).collect()
+    /// Returns the number of frames that are asked for, or else that the input has; `None` where that is one picture.
+    pub fn frames(&self) -> Option<usize> {
+        let asked = self.asked_frames.as_ref().map(|frames| frames.frames().len());
+        asked.or(Some(self.input().frames.len()).filter(|frames| *frames > 1))
     }
 
-    fn cost(&self, files: CostedFiles, input: &Input, worlds: &[World], reports: &[explain::Report]) -> SequenceCost {
-        let held = files.held(input);
+    /// Returns the costs of making all pictures, frame by frame, by their reports.
+    pub fn costs(&self, worlds: &[World], reports: &[Report]) -> Vec<SequenceCost> {
+        let frame = Frame { input: self.needed(reports), worlds, reports, sizes: self.file_sizes() };
+        CostedFiles::ALL.into_iter().map(|files| self.pool.install(|| self.cost(files, &frame))).collect()
+    }
+
+    fn cost(&self, files: CostedFiles, frame: &Frame) -> SequenceCost {
+        let making = self.making(files, frame);
+        let threads = self.pool.current_num_threads();
+        let alone = self.needs((files, making.alone), frame);
+        let one_of_many = |held: Held| self.of_many(self.needs((files, held), frame), &frame.input);
+        let planned = one_of_many(making.planned);
+        let plans = self.plan_bytes(making.arithmetic, self.memory.left_for_plan(planned, threads), frame.reports);
+        let many = if plans == 0 { one_of_many(making.alone) } else { planned };
+        let depth = self.memory.queue_depth(many, (usize::MAX, frame.sizes.len()), plans, threads);
+        let raw = pixels_in(frame.sizes.iter().copied()).saturating_mul(files.pixel_bytes());
+        SequenceCost {
+            files,
+            cpu_seconds: seconds((files, plans == 0), frame, raw),
+            picture: self.memory_of(alone, alone.picture_bytes(threads)),
+            sequence: self.memory_of(many, many.sequence_bytes(depth, plans, threads).max(many.picture_bytes(threads))),
+            frame_bytes: compressed(raw, files.format(), None),
+        }
+    }
+
+    /// Returns the needs of one frame of many. A world that a moving camera looks at may be a still one; other files, and those that do not
+    /// exist yet, change from frame to frame.
+    fn of_many(&self, needs: FrameNeeds, input: &Input) -> FrameNeeds {
+        let is_still = self.movement.is_some() && input.present().next().is_some();
+        let needs = if is_still { needs } else { needs.of_moving_input(input.views().count()) };
+        needs.of_many()
+    }
+
+    fn memory_of(&self, needs: FrameNeeds, bytes: u64) -> CostedMemory {
+        CostedMemory { bytes, is_allowed: self.memory.allows_frame(needs) }
+    }
+
+    /// Returns how the pictures of files are made. Integers take inputs of 8 bits without alpha; planned ones are taken for such.
+    fn making(&self, files: CostedFiles, frame: &Frame) -> Making {
+        let floats = Held::of_samples(files.pixel_bytes());
+        let any = Making { alone: floats, planned: floats, arithmetic: Arithmetic::Float };
+        let is_blurred = self.movement.as_ref().is_some_and(|(movement, _)| movement.blur.is_some());
+        let is_complete = frame.reports.iter().all(|report| report.uncovered.is_none());
+        if files == CostedFiles::Halves || is_blurred || !is_complete || is_balanced(&self.filter) {
+            return any;
+        }
+        if Arithmetic::Fixed.has_plan_of(self.filter.kind) && takes_integers(&frame.input) {
+            return Making { alone: Held::INTEGERS, planned: Held::INTEGERS, arithmetic: Arithmetic::Fixed };
+        }
+        // A plan of floats makes samples of 8 bits without a picture of light, unless it is one of a pyramid.
+        let are_integers = frame.input.present().all(|(_, header, _)| !header.depth.is_float());
+        if are_integers && self.filter.kind != FilterKind::EwaPyramid {
+            Making { planned: Held::CODES, ..any }
+        } else {
+            any
+        }
+    }
+
+    /// Returns the needs of a frame whose pictures are held so.
+    fn needs(&self, (files, held): (CostedFiles, Held), frame: &Frame) -> FrameNeeds {
+        let Frame { input, worlds, reports, sizes } = frame;
         let size = |picture: &Picture| (picture.view.width(), picture.view.height());
-        let sizes = self.file_sizes();
-        let pixels = sizes.iter().copied().map(area).fold(0, u64::saturating_add);
         let is_part = |picture: &&Picture| picture.place.is_some_and(|place| !place.is_whole(size(picture)));
         let largest = self.pictures().iter().filter(is_part).map(|picture| area(size(picture))).max().unwrap_or(0);
         let prepared = reports.iter().map(|report| report.memory.levels as u64).max().unwrap_or(0);
-        let needs = FrameNeeds::of_pictures(input, worlds, (pixels, largest), held).with_prepared(prepared);
-        let views = self.pictures().iter().map(|picture| &picture.view);
-        let needs = needs.with_footprints(self.pool.install(|| footprint_bytes(self.filter.kind, input, views)));
-        let needs = self.pool.install(|| needs.with_encoders_of(files.format(), &sizes));
-        let needs = if are_too_large(sizes.iter().copied()) { needs.by_strips(files.format(), &sizes) } else { needs };
-        let plan = |report: &explain::Report| {
-            if held == Held::INTEGERS { report.memory.fixed_plan } else { report.memory.plan }
+        let views = || self.pictures().iter().map(|picture| &picture.view);
+        let needs = FrameNeeds::of_pictures(input, worlds, (pixels_in(sizes.iter().copied()), largest), held)
+            .beside_tables(views())
+            .with_prepared(prepared)
+            .with_footprints(footprint_bytes(self.filter.kind, input, views()))
+            .with_encoders_of(files.format(), sizes);
+        let is_incomplete = reports.iter().any(|report| report.uncovered.is_some());
+        let needs = if is_incomplete && is_torn(input, views()) {
+            needs.with_masks(self.pictures().iter().map(size))
+        } else {
+            needs
         };
-        // A camera that moves has another geometry in each frame, of which none is kept.
-        let is_moving = self.movement.is_some();
-        let plans = if is_moving { 0 } else { reports.iter().map(|report| plan(report) as u64).sum() };
-        let threads = self.pool.current_num_threads();
-        let depth = self.memory.queue_depth(needs, (usize::MAX, self.pictures().len()), plans, threads);
-        let of_job = [needs.shared, plans, depth.bytes].into_iter().fold(0, u64::saturating_add);
-        let with_program = |bytes: u64| program_bytes(threads, needs.made()).saturating_add(with_reserve(bytes));
-        let raw = pixels.saturating_mul(files.pixel_bytes());
-        SequenceCost {
-            files,
-            cpu_seconds: seconds((files, is_moving), input, raw, reports),
-            picture_bytes: with_program(needs.peak()),
-            job_bytes: with_program(of_job),
-            frame_bytes: compressed(raw, files.format(), None),
+        if are_too_large(sizes.iter().copied()) { needs.by_strips(files.format(), sizes) } else { needs }
+    }
+
+    /// Returns the bytes of the plans that fit into so many: those of whole pictures, or of as many strips as there is room for. A camera
+    /// that moves has another geometry in each frame, of which none is kept.
+    fn plan_bytes(&self, arithmetic: Arithmetic, room: u64, reports: &[Report]) -> u64 {
+        if self.movement.is_some() {
+            return 0;
         }
+        let is_by_strips = are_too_large(self.file_sizes().into_iter());
+        reports.iter().fold(0, |taken, Report { memory, .. }| {
+            let plan = if arithmetic == Arithmetic::Fixed { memory.fixed_plan } else { memory.plan } as u64;
+            let left = room - taken;
+            taken
+                + if plan <= left {
+                    plan
+                } else if is_by_strips {
+                    left
+                } else {
+                    0
+                }
+        })
     }
 
     /// Returns the sizes of the files of a frame. Pictures that have places fill as few as hold them.
@@ -150,7 +242,7 @@ impl Explanation {
     }
 
     /// Returns the input with those views that a picture needs.
-    fn needed(&self, reports: &[explain::Report]) -> Input {
+    fn needed(&self, reports: &[Report]) -> Input {
         let views = reports.iter().flat_map(|report| &report.views);
         let needed: HashSet<&str> =
             views.filter(|view| view.need.read.is_some()).map(|view| view.need.name.as_str()).collect();
@@ -162,11 +254,21 @@ impl Explanation {
     }
 }
 
-/// Returns the processor seconds of a frame, whose geometry is kept unless the camera moves.
-fn seconds((files, is_moving): (CostedFiles, bool), input: &Input, raw: u64, reports: &[explain::Report]) -> f64 {
+/// Returns whether all inputs are opaque, of 8 bits, and fit the light of integers, as the outputs do, which are encoded like the first.
+fn takes_integers(input: &Input) -> bool {
+    let mut transfers = input.present().map(|(_, header, _)| header.metadata.transfer.clone().unwrap_or_default());
+    let is_plain = |header: &Header| header.depth == Depth::Eight && !header.channels.has_alpha();
+    let first = transfers.next().unwrap_or_default();
+    input.present().all(|(_, header, _)| is_plain(header))
+        && FixedCodec::new(&first, Rgba::BLACK).is_some()
+        && [first].into_iter().chain(transfers).all(|transfer| FixedDecoder::new(&transfer).is_some())
+}
+
+/// Returns the processor seconds of a frame, whose geometry is computed anew or kept.
+fn seconds((files, is_anew): (CostedFiles, bool), Frame { input, reports, .. }: &Frame, raw: u64) -> f64 {
     let nanoseconds = files.nanoseconds();
-    let Nanoseconds { pixel, texel, read, written } = if is_moving { nanoseconds.with_geometry() } else { nanoseconds };
-    let filtered = |report: &explain::Report| {
+    let Nanoseconds { pixel, texel, read, written } = if is_anew { nanoseconds.with_geometry() } else { nanoseconds };
+    let filtered = |report: &Report| {
         let shown = (report.size.0 * report.size.1) as f64 * report.shown;
         shown * (pixel + texel * report.gathered.mean)
     };

@@ -2,7 +2,7 @@
 
 mod cost;
 
-pub use cost::{CostedFiles, SequenceCost};
+pub use cost::{CostedFiles, CostedMemory, SequenceCost};
 
 use std::collections::HashSet;
 use std::path::PathBuf;
@@ -38,7 +38,7 @@ pub struct ExplanationSettings {
     pub input_size: Option<Size>,
     /// Projections, size, orientation and filter. Of a moving camera, pictures are those of the first frame.
     pub geometry: GeometrySettings,
-    /// Frames of a moving camera; those of its path or of the input, unless given.
+    /// Frames, of a moving camera or of the show whose costs are told; those of its path or of the input, unless given.
     pub frames: Option<FrameList>,
     /// Limits of threads and memory.
     pub limits: LimitSettings,
@@ -67,6 +67,8 @@ pub struct Explanation {
     movement: Option<(Movement, Vec<TargetView>)>,
     /// Whether the input exists, so that it may lack something.
     has_input: bool,
+    /// Frames that were asked for.
+    asked_frames: Option<FrameList>,
     filter: FilterSettings,
     pub(super) memory: MemoryBudget,
     /// Files that are read, by their real paths.
@@ -100,6 +102,7 @@ impl ExplanationSettings {
                 files: files_read((&input, None), &self.geometry),
                 memory: MemoryBudget::new(self.limits.memory),
                 has_input: self.input.is_some(),
+                asked_frames: self.frames.clone(),
                 input,
                 pictures,
                 movement,

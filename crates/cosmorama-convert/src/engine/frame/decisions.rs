@@ -3,7 +3,7 @@
 use super::pictures::Engine;
 use crate::diagnostic::{Decision, Topic};
 use crate::engine::geometry::{balance_bytes, bytes_of_passes};
-use crate::job::{QueueDepth, program_bytes, with_reserve};
+use crate::job::{QueueDepth, with_reserve};
 use crate::source::lock;
 use crate::source::memory_budget::human;
 
@@ -38,13 +38,9 @@ impl Engine<'_> {
         if !job.outputs.are_many() {
             return job.estimated_bytes(threads).saturating_add(with_reserve(geometry));
         }
-        let needs = self.needs;
-        let own = [needs.shared, self.queue_depth().bytes, geometry];
         let behind = job.layers().skip(1).map(|job| job.frame_needs().peak());
-        let pictures = own.into_iter().chain(behind).fold(0, u64::saturating_add);
-        // Each frame in flight is worked on by a thread.
-        let in_flight = (self.queue_depth().read + self.queue_depth().written) as u64;
-        program_bytes(threads, needs.made().saturating_mul(in_flight)).saturating_add(with_reserve(pictures))
+        let beside = behind.fold(geometry, u64::saturating_add);
+        self.needs.sequence_bytes(self.queue_depth(), beside, threads)
     }
 
     fn of_geometry(&self) -> String {

@@ -71,6 +71,11 @@ impl MemoryBudget {
         self.allow(self.with_program(needs), "a frame", &(largest + &describe(target, link)))
     }
 
+    /// Returns whether a frame fits.
+    pub(crate) fn allows_frame(self, needs: FrameNeeds) -> bool {
+        self.with_program(needs) <= self.bytes
+    }
+
     /// Returns the bytes of a frame and of the program, unless both are few. Of addresses there is no room beside: a third of the
     /// program has its own already.
     fn with_program(self, needs: FrameNeeds) -> u64 {

@@ -18,7 +18,7 @@ use crate::colour::Light;
 use crate::detect::disc;
 use crate::input::{Input, InputView};
 use crate::job::gaps::Shot;
-use crate::job::{Content, ConvertJob, FrameMemory};
+use crate::job::{Content, ConvertJob, FrameMemory, QueueDepth};
 use crate::source::memory_budget::{area, map_reading_bytes, read_bytes};
 use crate::target::{Sheet, Strip, Target, TargetView};
 
@@ -40,7 +40,7 @@ impl Held {
     pub(crate) const INTEGERS: Self = Self { is_fixed: true, pixel: size_of::<[u8; 3]>() as u64, encoded: 0 };
 
     /// Opaque pictures of 8 bits, made of light at once.
-    const CODES: Self = Self { is_fixed: false, pixel: size_of::<[u8; 3]>() as u64, encoded: 0 };
+    pub(crate) const CODES: Self = Self { is_fixed: false, pixel: size_of::<[u8; 3]>() as u64, encoded: 0 };
 
     /// Returns pictures of light that are encoded as files want them.
     pub(crate) fn floats(light: &Light) -> Self {
@@ -167,7 +167,7 @@ impl FrameNeeds {
     }
 
     /// Adds the tables of views' projections.
-    fn beside_tables<'v>(self, views: impl Iterator<Item = &'v View>) -> Self {
+    pub(crate) fn beside_tables<'v>(self, views: impl Iterator<Item = &'v View>) -> Self {
         views.filter(|view| is_map(view)).fold(self, |needs, view| Self {
             shared: needs.shared.saturating_add(map_bytes(view)),
             maps: needs.maps.max(map_reading_bytes(map_bytes(view))),
@@ -216,6 +216,11 @@ impl FrameNeeds {
     /// Returns the needs of one frame of many.
     pub(crate) fn of_many(self) -> Self {
         Self { samples: Samples { is_kept: true, ..self.samples }, ..self }
+    }
+
+    /// Returns the needs where all of so many files of the input change from frame to frame.
+    pub(crate) fn of_moving_input(self, files: usize) -> Self {
+        Self { samples: Samples { moving: self.samples.all, files, ..self.samples }, ..self }
     }
 
     /// Returns the needs of pictures of these sizes that are made one after the other, strip by strip: only a strip of one is there at once,
@@ -280,8 +285,21 @@ impl FrameNeeds {
         FrameMemory { all: sum([all, once, made]), read: moving, written }
     }
 
+    /// Returns the memory of a run that makes one frame.
+    pub(crate) fn picture_bytes(self, threads: usize) -> u64 {
+        with_reserve(self.peak()).saturating_add(program_bytes(threads, self.made()))
+    }
+
+    /// Returns the memory of a run that makes many frames, with so many bytes of geometry and of what lies behind. Each frame in flight is
+    /// worked on by a thread.
+    pub(crate) fn sequence_bytes(self, depth: QueueDepth, beside: u64, threads: usize) -> u64 {
+        let pictures = sum([self.shared, depth.bytes, beside]).max(self.maps);
+        let made = self.made().saturating_mul((depth.read + depth.written) as u64);
+        with_reserve(pictures).saturating_add(program_bytes(threads, made))
+    }
+
     /// Returns the bytes that are made of pictures.
-    pub(crate) fn made(self) -> u64 {
+    fn made(self) -> u64 {
         sum([self.pictures, self.piece, self.encoded])
     }
 
@@ -359,13 +377,9 @@ impl ConvertJob {
         footprint_bytes(self.filter.kind, &self.input, views)
     }
 
-    /// Returns whether the masks of what no view of the input covers take memory. They do where the world may end in any pixel: views with
-    /// masks of their own, maps, and many views with gaps. Others take next to none.
+    /// Returns whether the masks of what no view of the input covers take memory.
     fn has_masks(&self) -> bool {
-        const MANY: usize = 100;
-        let is_torn = |view: &InputView| view.mask.is_some() || is_map(&view.nominal);
-        let is_torn = self.input.views().any(is_torn) || self.target.views.iter().any(|target| is_map(&target.view));
-        let is_torn = is_torn || self.input.views().nth(MANY).is_some();
+        let is_torn = is_torn(&self.input, self.target.views.iter().map(|target| &target.view));
         is_torn && self.lighting.is_none() && self.content == Content::World && !self.is_complete()
     }
 
@@ -450,7 +464,7 @@ impl Strips {
     }
 }
 
-fn pixels_in(sizes: impl Iterator<Item = (usize, usize)>) -> u64 {
+pub(crate) fn pixels_in(sizes: impl Iterator<Item = (usize, usize)>) -> u64 {
     sizes.map(area).fold(0, u64::saturating_add)
 }
 
@@ -527,6 +541,16 @@ fn map_bytes(view: &View) -> u64 {
         ProjectionKind::StMap(map) => map.bytes(),
         _ => 0,
     }
+}
+
+/// Returns whether the world of an input may end in any pixel of these views, so that their masks take memory: at views with masks of their
+/// own, maps, and many views with gaps.
+pub(crate) fn is_torn<'v>(input: &Input, mut views: impl Iterator<Item = &'v View>) -> bool {
+    const MANY: usize = 100;
+    let mut parts = input.views();
+    parts.any(|part| part.mask.is_some() || is_map(&part.nominal))
+        || views.any(is_map)
+        || input.views().nth(MANY).is_some()
 }
 
 fn is_map(view: &View) -> bool {

@@ -6,6 +6,8 @@
 #[cfg(not(feature = "video"))]
 mod absent;
 #[cfg(feature = "video")]
+mod counted;
+#[cfg(feature = "video")]
 mod described;
 mod frame_name;
 #[cfg(feature = "video")]

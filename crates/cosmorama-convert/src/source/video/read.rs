@@ -10,11 +10,12 @@ use cosmorama_io::pending::Unfinished;
 use cosmorama_io::{Header, ImageFile, IoError, Limits};
 use cosmorama_spec::{FrameRate, Spec};
 use cosmorama_video::{
-    Announced, AnnouncedBy, CutShort, Damaged, Fault, Ffmpeg, PairedReader, ReadOptions, SecondHalf, Timeline,
-    VideoError, VideoInfo, VideoReader,
+    CutShort, Damaged, Fault, Ffmpeg, PairedReader, ReadOptions, SecondHalf, Timeline, VideoError, VideoInfo,
+    VideoReader,
 };
 use thiserror::Error;
 
+use super::counted::count;
 use super::live::Live;
 use super::raw::{RawInfo, RawReader, aside, foreign};
 use super::{Coming, DamagedFrames, FrameName, RawBytes, RawFiles, RawKind, described};
@@ -87,6 +88,8 @@ struct State {
     failure: Option<Shared>,
     /// Faults of frames that are left out, or in place of which others are shown: the first of each, with their number and the reason.
     faults: BTreeMap<u64, (u64, String)>,
+    /// Damaged frames before those that were asked for, after which some of these take.
+    before: BTreeMap<u64, (u64, String)>,
 }
 
 /// Frames at most that are held before they are asked for. Threads ask for few frames out of order; those that are dropped are
@@ -437,7 +440,14 @@ impl Source {
             return Some(format!("{path}: {}", more_than(self.count)));
         }
         state.close();
+        let traced: u64 = self.traces(&state).0.iter().map(|range| range.end - range.start).sum();
         let Some((first, (_, reason))) = state.faults.first_key_value() else {
+            if let Some((damaged, (_, reason))) = state.before.first_key_value() {
+                return Some(format!(
+                    "{path}: {traced} {} take after frame {damaged}, which is damaged ({reason}) though it is not asked for, and show traces",
+                    if traced == 1 { "frame may" } else { "frames may" }
+                ));
+            }
             let CutShort { expected, found } = self.cut().filter(|_| self.damaged != Damaged::Error)?;
             let read = state.asked.len();
             return Some(format!(
@@ -450,7 +460,6 @@ impl Source {
         } else {
             "replaced by the one before"
         };
-        let traced: u64 = self.traces(&state).0.iter().map(|range| range.end - range.start).sum();
         let further = match traced {
             0 => String::new(),
             1 => "; 1 further frame may take after them, and show traces".to_owned(),
@@ -466,8 +475,9 @@ impl Source {
     /// where the file's own order cannot be read.
     fn traces(&self, state: &State) -> (Vec<Range<u64>>, &'static str) {
         let Content::Film { ffmpeg, info, half } = &self.content else { return (Vec::new(), TRACES) };
-        let damaged: Vec<_> = state.faults.iter().map(|(first, (count, _))| *first..first + count).collect();
-        let Some(first) = damaged.first() else { return (Vec::new(), TRACES) };
+        let faults = state.faults.iter().chain(&state.before);
+        let damaged: Vec<_> = faults.map(|(first, (count, _))| *first..first + count).collect();
+        let Some(first) = damaged.iter().min_by_key(|range| range.start) else { return (Vec::new(), TRACES) };
         let streams = std::iter::once(&**info).chain(half.iter().map(|half| &half.info));
         let traced = streams.map(|info| ffmpeg.traces(info, &damaged).ok().flatten()).collect::<Option<Vec<_>>>();
         let (traced, reason): (BTreeSet<u64>, _) = match traced {
@@ -524,15 +534,19 @@ impl State {
 
     /// Ends the decoder, and notes its faults.
     fn close(&mut self) {
-        let faults: Vec<Fault> = match self.reader.take() {
-            Some((Decoder::Film(reader), _)) => reader.faults().to_vec(),
-            Some((Decoder::Pair(reader), _)) => reader.faults().cloned().collect(),
-            Some((Decoder::Raw(_), _)) | None => Vec::new(),
+        let (faults, before): (Vec<Fault>, Vec<Fault>) = match self.reader.take() {
+            Some((Decoder::Film(reader), _)) => (reader.faults().to_vec(), reader.faults_before().to_vec()),
+            Some((Decoder::Pair(reader), _)) => {
+                (reader.faults().cloned().collect(), reader.faults_before().cloned().collect())
+            }
+            Some((Decoder::Raw(_), _)) | None => return,
         };
-        for Fault { frame, count, reason } in faults {
-            // Of two streams, or of two decoders, the longer gap.
-            let known = self.faults.entry(frame).or_insert((count, reason));
-            known.0 = known.0.max(count);
+        for (known, found) in [(&mut self.faults, faults), (&mut self.before, before)] {
+            for Fault { frame, count, reason } in found {
+                // Of two streams, or of two decoders, the longer gap.
+                let known = known.entry(frame).or_insert((count, reason));
+                known.0 = known.0.max(count);
+            }
         }
     }
 }
@@ -541,40 +555,6 @@ impl State {
 #[derive(Clone, Debug, Error)]
 #[error(transparent)]
 pub(super) struct Shared(pub(super) Arc<VideoError>);
-
-/// Returns the number of frames that a file announces. Where only its duration tells, which may be rounded, its coded frames are
-/// counted; of a file that is cut they would be too few, and nobody would miss the others.
-fn count(ffmpeg: &Ffmpeg, info: &VideoInfo, damaged: Damaged) -> Result<u64, VideoError> {
-    let announced = match info.announced {
-        Some(Announced { frames, by: AnnouncedBy::Count }) if !hides_frames(info, frames) => return Ok(frames),
-        Some(Announced { frames, by: AnnouncedBy::Count }) => Some(frames),
-        Some(Announced { frames, by: AnnouncedBy::Duration }) => Some(frames),
-        None => None,
-    };
-    match (announced, info.cut) {
-        (Some(frames), Some(_)) => return Ok(frames),
-        (None, Some(CutShort { expected, found })) if damaged == Damaged::Error => {
-            return Err(VideoError::Cut { path: info.path.clone(), expected, found, is_described: true });
-        }
-        _ => {}
-    }
-    // The times of a variable rate are listed one by one.
-    let mut listed = info.clone();
-    listed.is_variable = true;
-    let coded = ffmpeg.timeline(&listed)?.frames().unwrap_or_default();
-    if hides_frames(info, announced.unwrap_or(coded)) {
-        return Ok(coded);
-    }
-    Ok(announced.filter(|frames| coded + 1 < *frames).unwrap_or(coded))
-}
-
-/// Returns whether some of the frames that a file counts are not shown: the edit list of an MP4 that was cut without encoding it again
-/// leaves them out, and its duration tells so.
-fn hides_frames(info: &VideoInfo, counted: u64) -> bool {
-    let is_count = matches!(info.announced, Some(Announced { by: AnnouncedBy::Count, .. }));
-    let shown = |seconds: f64| (seconds * info.rate.to_f64()).round() as u64;
-    is_count && info.cut.is_none() && info.duration.is_some_and(|seconds| shown(seconds) < counted)
-}
 
 #[cfg(test)]
 mod tests {

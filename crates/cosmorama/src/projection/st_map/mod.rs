@@ -125,7 +125,9 @@ impl StMapTable {
             let tree = Tree::new(&places, &links, &pieces, MOST_BEYOND);
             Places::Table(places, tree)
         });
-        let leaves = pieces.into_iter().map(|piece| piece.leaf).collect();
+        let mut leaves: Vec<_> = pieces.into_iter().map(|piece| piece.leaf).collect();
+        // It may have kept the memory of the pieces.
+        leaves.shrink_to_fit();
         Ok(Self { places, directions, links, leaves, by_direction })
     }
 

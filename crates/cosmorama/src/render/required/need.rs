@@ -38,7 +38,9 @@ pub struct Needs {
 pub enum Accuracy {
     /// Exact: by the taps of the filter itself.
     Exact,
-    /// Faster. `read` is a few texels too large and `seen` may be only a part; whether each is `Some`, and `uncovered`,
+    /// Faster. `seen` and `uncovered` are exact; `read` is a few texels too large, and may be `Some` where nothing is read.
+    Seen,
+    /// Fastest. `read` is a few texels too large and `seen` may be only a part; whether each is `Some`, and `uncovered`,
     /// are exact.
     Bounds,
 }
@@ -51,6 +53,7 @@ impl Needs {
     pub fn of(world: &World, targets: &[View], filter: &FilterSettings, accuracy: Accuracy) -> Self {
         match accuracy {
             Accuracy::Exact if !filter.kind.lists_texels() => Self::at_most(world, targets, filter),
+            Accuracy::Seen => Self::at_most(world, targets, filter),
             Accuracy::Exact => Self::surveyed(world, targets, filter, Reads::Exactly),
             Accuracy::Bounds => {
                 let quick = Self::within_reach(world, targets, filter);

@@ -70,7 +70,13 @@ fn at_most_so_much_is_read_and_exactly_so_much_is_seen() {
         for target in [omnimax(200, 146), equirect(160), perspective(160, 120, 70.0, 40.0, 20.0, 5.0)] {
             let (exact, most) =
                 (needs(&world, target.clone()), bounds(&world, target.clone(), &FilterSettings::DEFAULT));
-            assert_eq!(exact.uncovered, most.uncovered, "{target:?}");
+            let seen = Needs::of(&world, std::slice::from_ref(&target), &FilterSettings::DEFAULT, Accuracy::Seen);
+            assert_eq!((exact.uncovered, exact.uncovered), (most.uncovered, seen.uncovered), "{target:?}");
+            for (exact, found) in exact.views.iter().zip(&seen.views) {
+                assert_eq!(exact.seen, found.seen, "{target:?}");
+                let holds = |read| found.read.is_some_and(|found| found.contains(&read));
+                assert!(exact.read.is_none_or(holds), "{exact:?} is not in {found:?}");
+            }
             for (exact, most) in exact.views.iter().zip(&most.views) {
                 assert_eq!(exact.seen, most.seen, "{target:?}");
                 let holds = |read| most.read.is_some_and(|most| most.contains(&read));

@@ -1,0 +1,37 @@
+//! Number of frames that a video file gives.
+
+use cosmorama_video::{Announced, AnnouncedBy, CutShort, Damaged, Ffmpeg, VideoError, VideoInfo};
+
+/// Returns the number of frames that a file announces. Where only its duration tells, which may be rounded, its coded frames are
+/// counted; of a file that is cut they would be too few, and nobody would miss the others.
+pub(super) fn count(ffmpeg: &Ffmpeg, info: &VideoInfo, damaged: Damaged) -> Result<u64, VideoError> {
+    let announced = match info.announced {
+        Some(Announced { frames, by: AnnouncedBy::Count }) if !hides_frames(info, frames) => return Ok(frames),
+        Some(Announced { frames, by: AnnouncedBy::Count }) => Some(frames),
+        Some(Announced { frames, by: AnnouncedBy::Duration }) => Some(frames),
+        None => None,
+    };
+    match (announced, info.cut) {
+        (Some(frames), Some(_)) => return Ok(frames),
+        (None, Some(CutShort { expected, found })) if damaged == Damaged::Error => {
+            return Err(VideoError::Cut { path: info.path.clone(), expected, found, is_described: true });
+        }
+        _ => {}
+    }
+    // The times of a variable rate are listed one by one.
+    let mut listed = info.clone();
+    listed.is_variable = true;
+    let coded = ffmpeg.timeline(&listed)?.frames().unwrap_or_default();
+    if hides_frames(info, announced.unwrap_or(coded)) {
+        return Ok(coded);
+    }
+    Ok(announced.filter(|frames| coded + 1 < *frames).unwrap_or(coded))
+}
+
+/// Returns whether some of the frames that a file counts are not shown: the edit list of an MP4 that was cut without encoding it again
+/// leaves them out, and its duration tells so.
+fn hides_frames(info: &VideoInfo, counted: u64) -> bool {
+    let is_count = matches!(info.announced, Some(Announced { by: AnnouncedBy::Count, .. }));
+    let shown = |seconds: f64| (seconds * info.rate.to_f64()).round() as u64;
+    is_count && info.cut.is_none() && info.duration.is_some_and(|seconds| shown(seconds) < counted)
+}
