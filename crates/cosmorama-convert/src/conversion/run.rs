@@ -20,6 +20,7 @@ use crate::engine::{
 use crate::job::options::write_options;
 use crate::job::{Content, ConvertJob, FrameOutputs};
 use crate::settings::LightSettings;
+use crate::source::video::DamagedFrames;
 use crate::source::video::{FrameName, Videos};
 
 /// Threads that wait for disks while a sequence is made.
@@ -127,7 +128,10 @@ impl Checked {
         let estimated = pool.install(|| engine.estimated_bytes());
         let made = match &job.outputs.frames[..] {
             [] => Ok(Vec::new()),
-            [frame] if !job.outputs.go_on => run.still(frame).map(|()| Vec::new()),
+            // A frame that may be left out has no picture.
+            [frame] if !job.outputs.go_on && settings.video.damaged != DamagedFrames::Skip => {
+                run.still(frame).map(|()| Vec::new())
+            }
             _ => {
                 // Pictures of videos wait for no disk.
                 let disks = &threads(Some(if job.target.format.is_video() { 1 } else { WAITING }))?;

@@ -25,7 +25,8 @@ use std::collections::HashSet;
 use std::path::PathBuf;
 
 use cosmorama::camera::View;
-use cosmorama_io::{EnvMap, Header, Pose};
+use cosmorama::raster::{Depth, FixedDecoder, Transfer};
+use cosmorama_io::{EnvMap, Format, Header, Pose};
 
 use crate::detect::GivenFaces;
 use crate::diagnostic::{Code, Diagnostic, FROM, Result, TO};
@@ -170,6 +171,25 @@ impl Input {
     /// Returns whether it is a stream that is read as it comes.
     pub(crate) fn is_live(&self, files: &dyn Files) -> bool {
         self.present().filter_map(|(view, ..)| view.files.video()).any(|video| files.live(video).is_some())
+    }
+
+    /// Returns whether the formats of all files hold integers alone.
+    pub(crate) fn holds_only_integers(&self) -> bool {
+        let is_integer = |format: Format| format.depths().iter().all(|depth| !depth.is_float());
+        self.present().all(|(_, header, _)| is_integer(header.format))
+    }
+
+    /// Returns whether all files are opaque, of 8 bits, and fit 15-bit light by the transfer function of each, which is `None` where its
+    /// colours have to be converted.
+    pub(crate) fn takes_integers(&self, transfer: impl Fn(&Header) -> Option<Transfer>) -> bool {
+        // Tables of a transfer function are made once, since a world may have thousands of views.
+        let mut known: Option<Transfer> = None;
+        self.present().all(|(_, header, _)| {
+            let Some(transfer) = transfer(header) else { return false };
+            let fits = known.as_ref() == Some(&transfer) || FixedDecoder::new(&transfer).is_some();
+            known = Some(transfer);
+            fits && header.depth == Depth::Eight && !header.channels.has_alpha()
+        })
     }
 
     /// Returns the bytes of the pictures that streams hold beside those of frames.

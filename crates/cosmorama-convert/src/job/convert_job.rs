@@ -6,7 +6,7 @@ use cosmorama::camera::View;
 use cosmorama::filter::{Classic, Filter, FilterKind, FilterSettings, Kernel};
 use cosmorama::lighting::PreparedLight;
 use cosmorama::motion::{Exposure, Moment, Pose};
-use cosmorama::raster::{Channels, Depth, FixedCodec, FixedDecoder, Rgba, Transfer};
+use cosmorama::raster::{Channels, Depth, FixedCodec, Rgba};
 use cosmorama::render::{Accuracy, Arithmetic, Needs, Resampler};
 use cosmorama::world::World;
 use cosmorama_builtin::BuiltinWorld;
@@ -103,21 +103,25 @@ pub(crate) fn is_balanced(filter: &FilterSettings) -> bool {
     filter.kind == FilterKind::Ewa && filter.kernel == Kernel::LIGHT && !filter.anti_ringing
 }
 
+/// Returns whether a filter makes strips by themselves. The passes of two-pass run through whole columns, and each moment under a shutter
+/// would have a balance of its own.
+pub(crate) fn makes_strips(filter: &FilterSettings, has_shutter: bool) -> bool {
+    filter.kind != FilterKind::Classic(Classic::TwoPass) && !(has_shutter && is_balanced(filter))
+}
+
 /// Returns whether pictures are made without all of them: those that are too large to be held, and maps, each of whose pixels stands for
-/// itself. The passes of two-pass run through whole columns, and maps of light are measured when they are made.
+/// itself. Maps of light are measured when they are made.
 fn may_be_by_strips(
     (target, content): (&Target, Content),
     filter: &FilterSettings,
     (is_lit, has_shutter): (bool, bool),
 ) -> bool {
-    // Each moment would have a balance of its own.
-    let has_balances = has_shutter && is_balanced(filter);
-    let is_local = match content {
-        Content::World => filter.kind != FilterKind::Classic(Classic::TwoPass),
-        Content::Formula(_) => true,
-        Content::StMap | Content::Directions(_) => return true,
-    };
-    is_large(target) && is_local && !has_balances && !is_lit && !target.format.is_video()
+    match content {
+        Content::StMap | Content::Directions(_) => true,
+        Content::World | Content::Formula(_) => {
+            is_large(target) && makes_strips(filter, has_shutter) && !is_lit && !target.format.is_video()
+        }
+    }
 }
 
 /// Returns the source of a conversion's files, which knows the parts and channels to read.
@@ -443,13 +447,9 @@ impl ConvertJob {
 
     /// Returns whether all inputs are opaque, of 8 bits, and fit 15-bit light.
     fn takes_integers(&self) -> bool {
-        // Tables of a transfer function are made once, since a world may have thousands of views.
-        let mut known: Option<Transfer> = None;
-        self.input.present().all(|(_, header, _)| {
+        self.input.takes_integers(|header| {
             let colours = self.light.colours(header.channels, header.depth, &header.metadata);
-            let fits = known.as_ref() == Some(&colours.transfer) || FixedDecoder::new(&colours.transfer).is_some();
-            known = Some(colours.transfer);
-            fits && header.depth == Depth::Eight && !header.channels.has_alpha() && colours.conversion.is_none()
+            colours.conversion.is_none().then_some(colours.transfer)
         })
     }
 

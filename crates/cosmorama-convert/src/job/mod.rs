@@ -18,7 +18,7 @@ pub use resume::Remade;
 pub(crate) use resume::Resumed;
 
 pub(crate) use content::Content;
-pub(crate) use convert_job::{ConvertJob, Purpose, is_balanced};
+pub(crate) use convert_job::{ConvertJob, Purpose, is_balanced, makes_strips};
 pub(crate) use memory_needs::{
     BAND, FrameNeeds, Held, STRIP, are_too_large, footprint_bytes, is_large, is_torn, pixels_in, with_reserve,
 };

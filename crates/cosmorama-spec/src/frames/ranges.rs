@@ -131,7 +131,7 @@ fn number(text: &str) -> Result<u64, String> {
         let dotted = text.split_once("..").and_then(|(first, last)| Some((first.parse().ok()?, last.parse().ok()?)));
         let hint = match dotted {
             Some((first, last)) => format!("; {}", meant(first, last)),
-            None if is_time(text) => "; times in a video are written as in 00:00:01.5-00:00:02".to_owned(),
+            None if is_time(text) => "; convert takes times of a video, written as in 00:00:01.5-00:00:02".to_owned(),
             None if text.contains(char::is_whitespace) => "; put commas between".to_owned(),
             None => String::new(),
         };
@@ -140,9 +140,12 @@ fn number(text: &str) -> Result<u64, String> {
     text.parse().ok().filter(|frame| *frame <= LAST_FRAME).ok_or_else(|| format!("{text} is too large"))
 }
 
-/// Returns whether somebody means seconds: a decimal, or a number with a unit.
+/// Returns whether somebody means seconds: a decimal number, or one with a unit.
 fn is_time(text: &str) -> bool {
-    text.trim_end_matches('s').trim_end_matches('m').parse::<f64>().is_ok_and(|seconds| seconds.is_finite())
+    let number = text.strip_suffix("ms").or(text.strip_suffix('s')).unwrap_or(text);
+    number.starts_with(|first: char| first.is_ascii_digit())
+        && number.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.')
+        && number.matches('.').count() < 2
 }
 
 /// Returns the text for all frames between two numbers.
@@ -156,7 +159,15 @@ mod tests {
 
     #[test]
     fn who_means_seconds_is_told_how_times_are_written() {
-        for (text, is_time) in [("0.5s-1s", true), ("1.5", true), ("500ms-1s", true), ("all", false), ("a.b", false)] {
+        for (text, is_time) in [
+            ("0.5s-1s", true),
+            ("1.5", true),
+            ("500ms-1s", true),
+            ("1e3", false),
+            ("+5", false),
+            ("all", false),
+            ("a.b", false),
+        ] {
             let told = text.parse::<FrameRanges>().unwrap_err().to_string();
             assert_eq!(told.contains("00:00:01.5-00:00:02"), is_time, "{told}");
         }

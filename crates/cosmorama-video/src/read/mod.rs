@@ -7,6 +7,7 @@ mod preceding;
 mod reader;
 mod traces;
 
+use std::collections::BTreeSet;
 use std::ops::{Range, RangeInclusive};
 
 use cosmorama::raster::EncodedImage;
@@ -19,6 +20,8 @@ pub use reader::VideoReader;
 pub struct ReadOptions {
     /// Numbers of the first and last frame, from 0; `None` for all.
     pub frames: Option<RangeInclusive<u64>>,
+    /// Frames among them that are looked at; `None` for all. Others may show traces of damage.
+    pub looked_at: Option<BTreeSet<u64>>,
     /// Rows of each frame that are looked at; `None` for all. Others may hold anything.
     pub rows: Option<Range<usize>>,
     /// Answer to a frame that is damaged or missing.
@@ -32,7 +35,15 @@ pub struct ReadOptions {
 impl Default for ReadOptions {
     /// Returns all frames, without tolerance for damage, of at most four gigabytes each.
     fn default() -> Self {
-        Self { frames: None, rows: None, damaged: Damaged::Error, memory: 4 << 30, threads: 0 }
+        Self { frames: None, looked_at: None, rows: None, damaged: Damaged::Error, memory: 4 << 30, threads: 0 }
+    }
+}
+
+impl ReadOptions {
+    /// Returns whether somebody looks at a frame.
+    fn looks_at(&self, frame: u64) -> bool {
+        self.frames.as_ref().is_none_or(|frames| frames.contains(&frame))
+            && self.looked_at.as_ref().is_none_or(|looked_at| looked_at.contains(&frame))
     }
 }
 

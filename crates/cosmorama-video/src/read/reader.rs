@@ -1,6 +1,6 @@
 use super::decoder::{Decoded, Decoder, Ended, Next, Start};
 use super::filters::{Pixels, Raw};
-use super::preceding::{self, Preceding};
+use super::preceding::{Before, Looked};
 use super::{Damaged, Fault, FrameCondition, ReadOptions, VideoFrame};
 use crate::{Announced, AnnouncedBy, CutShort, Ffmpeg, Timeline, VideoError, VideoInfo};
 use cosmorama::raster::{EncodedImage, FramePool};
@@ -27,8 +27,12 @@ pub struct VideoReader {
     /// Time of the frame before.
     last: i64,
     may_restart: bool,
-    /// Whether frames before the first that is asked for are looked at where something is heard of them.
-    looks_before: bool,
+    /// Whether frames are decoded once more where something is heard that may be about others than those that are asked for.
+    looks_again: bool,
+    /// Whether that was not done yet for frames before the first.
+    may_look_before: bool,
+    /// Fault of the first frame, which was found so.
+    own: Option<Fault>,
     faults: Vec<Fault>,
     /// Damaged frames before the first that is asked for.
     before: Vec<Fault>,
@@ -58,7 +62,7 @@ const PATIENCE: u64 = 64;
 const WORTH_SEEKING: u64 = 50;
 
 /// Seconds before a frame to which ffmpeg seeks, so that all frames that it needs lie behind.
-const MARGIN: f64 = 0.5;
+pub(super) const MARGIN: f64 = 0.5;
 
 impl VideoReader {
     /// Starts to decode.
@@ -101,19 +105,21 @@ impl VideoReader {
             total: None,
             last: 0,
             may_restart: start.seek.is_some(),
-            looks_before: true,
+            looks_again: true,
+            may_look_before: true,
+            own: None,
             faults: Vec::new(),
             before: Vec::new(),
         })
     }
 
-    /// Starts to decode without a look at frames before the first that is asked for.
+    /// Starts to decode, without a second look.
     pub(super) fn looking_no_further(
         ffmpeg: &Ffmpeg,
         info: &VideoInfo,
         options: ReadOptions,
     ) -> Result<Self, VideoError> {
-        Ok(Self { looks_before: false, ..Self::open(ffmpeg, info, options)? })
+        Ok(Self { looks_again: false, may_look_before: false, ..Self::open(ffmpeg, info, options)? })
     }
 
     /// Returns the next frame; `None` after the last.
@@ -153,7 +159,10 @@ impl VideoReader {
 
     fn found_next(&mut self, pool: &FramePool) -> Result<Option<VideoFrame>, VideoError> {
         loop {
-            if self.options.frames.as_ref().is_some_and(|range| self.expected > *range.end()) {
+            if let Some(last) =
+                self.options.frames.as_ref().map(|range| *range.end()).filter(|last| self.expected > *last)
+            {
+                self.settle_at_the_end(last)?;
                 return Ok(None);
             }
             if self.ahead.is_none() {
@@ -190,7 +199,7 @@ impl VideoReader {
             let mut frame = match decoder.next(&self.info, pool)? {
                 Next::Frame(frame) => frame,
                 Next::End(_) if std::mem::take(&mut self.may_restart) => {
-                    self.restart()?;
+                    self.restart(None)?;
                     continue;
                 }
                 Next::End(ended) => return self.ended(ended),
@@ -198,12 +207,18 @@ impl VideoReader {
             let index = frame.time.map_or(self.expected, |time| self.timeline.frame(time));
             if index > self.expected && std::mem::take(&mut self.may_restart) {
                 // The seek has gone too far, or a frame is missing: from the beginning it is certain.
-                self.restart()?;
+                self.restart(None)?;
                 continue;
             }
+            let is_doubtful = decoder.take_doubt() && std::mem::take(&mut self.may_look_before);
             self.may_restart = false;
-            if decoder.take_doubt() && self.looks_before {
-                self.look_before((index, &mut frame))?;
+            if is_doubtful {
+                self.look_before()?;
+                continue;
+            }
+            if let Some(Fault { reason, .. }) = self.own.take() {
+                frame.is_corrupt |= index == self.expected;
+                frame.complaint = Some(reason);
             }
             if let Some(text) = frame.complaint.take() {
                 // The first names the cause.
@@ -218,28 +233,52 @@ impl VideoReader {
         }
     }
 
-    fn restart(&mut self) -> Result<(), VideoError> {
-        let start = Start { seek: None, ..start(&self.info, &self.timeline, self.expected) };
+    fn restart(&mut self, seek: Option<f64>) -> Result<(), VideoError> {
+        let start = Start { seek, ..start(&self.info, &self.timeline, self.expected) };
         // The old one is ended first.
         self.decoder = None;
         self.decoder = Some(Decoder::start(&self.ffmpeg, &self.info, &self.options, start)?);
         Ok(())
     }
 
-    /// Finds out whether frames up to the first one that is asked for are damaged.
-    fn look_before(&mut self, (index, frame): (u64, &mut Decoded)) -> Result<(), VideoError> {
-        let (first, last) = self.options.frames.as_ref().map_or((0, u64::MAX), |range| range.clone().into_inner());
-        let of = (&self.ffmpeg, &self.info, &self.timeline);
-        let Preceding { faults, traced, own } = preceding::find(of, &self.options, (first, last))?;
-        if let (Damaged::Error, Some(Fault { frame, reason, .. })) = (self.options.damaged, faults.first()) {
-            let reason = format!("{reason}; frame {traced}, which is asked for, may take after it");
-            return self.tell(*frame, 1, reason);
+    /// Finds out whether frames up to the first one that is asked for are damaged. Where decoding began within the file it begins again,
+    /// farther before: some decoders make up frames that they lack.
+    fn look_before(&mut self) -> Result<(), VideoError> {
+        let first = self.expected;
+        let damage = self.looked().damage((first, first))?;
+        self.own = damage.of(first).cloned();
+        if let Some(Before { faults, traced }) = damage.before(first, self.looked()) {
+            if let (Damaged::Error, Some(Fault { frame, reason, .. })) = (self.options.damaged, faults.first()) {
+                return self.tell(
+                    *frame,
+                    1,
+                    format!("{reason}; frame {traced}, which is asked for, may take after it"),
+                );
+            }
+            self.before = faults;
         }
-        if let Some(Fault { reason, .. }) = own {
-            frame.is_corrupt |= index == first;
-            frame.complaint = Some(reason);
+        let seek = start(&self.info, &self.timeline, damage.start).seek;
+        self.restart(seek)
+    }
+
+    fn looked(&self) -> Looked<'_> {
+        Looked { ffmpeg: &self.ffmpeg, info: &self.info, timeline: &self.timeline, options: &self.options }
+    }
+
+    /// Tells of a message that was heard within the last frames that are asked for, if one of them is damaged: decoders work ahead, and may
+    /// mean one that comes later.
+    fn settle_at_the_end(&mut self, last: u64) -> Result<(), VideoError> {
+        let Some(Complaint { frame, text }) = self.complaint.take() else { return Ok(()) };
+        if !self.looks_again {
+            return self.tell(frame, 1, text);
         }
-        self.before = faults;
+        let found = self.looked().damage((frame, last))?.faults.into_iter();
+        let told = found.filter(|fault| fault.frame <= last && fault.frame + fault.count > frame);
+        for Fault { frame, count, reason } in told.collect::<Vec<_>>() {
+            if !self.is_told(frame) {
+                self.tell(frame, count, reason)?;
+            }
+        }
         Ok(())
     }
 

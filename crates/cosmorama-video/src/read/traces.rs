@@ -18,7 +18,16 @@ impl Ffmpeg {
         } else {
             self.timeline(info)?
         };
-        Ok((!coded.is_empty()).then(|| traces(&coded, &timeline, damaged)))
+        Ok((!coded.is_empty()).then(|| traces(&coded, &timeline, &info.meant(damaged))))
+    }
+}
+
+impl VideoInfo {
+    /// Returns the frames that may be meant where a decoder leaves some out. Those of MPEG hold a frame back, which they lose when the next
+    /// one is damaged; that one they paint over.
+    pub(super) fn meant(&self, damaged: &[Range<u64>]) -> Vec<Range<u64>> {
+        let held_back = u64::from(["mpeg1video", "mpeg2video", "mpeg4"].contains(&self.codec.as_str()));
+        damaged.iter().map(|frames| frames.start..frames.end + held_back).collect()
     }
 }
 

@@ -174,6 +174,53 @@ fn damage_before_the_first_frame_that_is_asked_for_is_told_as_far_as_it_reaches(
     }
 }
 
+/// A damaged key frame, and codecs whose decoders paint over what is damaged: what they say of it comes with no missing frame.
+#[test]
+fn damage_of_a_key_frame_is_told_of_the_frames_behind_it() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    for (name, arguments) in [
+        ("a.mkv", "-c:v libx264 -bf 0 -g 20 -x264-params scenecut=0"),
+        ("b.mkv", "-c:v mpeg2video -bf 0 -g 20 -sc_threshold 1000000000 -b:v 2M"),
+    ] {
+        let path = folder.path().join(name);
+        run(&format!("{} {arguments}", moving(256, 128, "25", 120)), &path);
+        let whole = frames(&ffmpeg, &path, ReadOptions::default()).unwrap();
+        damage(&path, 80);
+        let all = frames(&ffmpeg, &path, ReadOptions::default()).unwrap_err();
+        assert!(matches!(all, VideoError::DamagedFrame { frame: 79..=80, .. }), "{name}: {all}");
+        for first in [81, 85, 90] {
+            let Err(error) = frames(&ffmpeg, &path, of(first, 95)) else { panic!("{name}: {first} is whole") };
+            assert!(matches!(error, VideoError::DamagedFrame { frame: 79..=80, .. }), "{name}, {first}: {error}");
+            assert!(error.to_string().contains(&format!("frame {first}, which is asked for")), "{name}: {error}");
+        }
+        let error = frames(&ffmpeg, &path, of(70, 95)).unwrap_err();
+        assert!(matches!(error, VideoError::DamagedFrame { frame: 79..=80, .. }), "{name}: {error}");
+        assert!(frames(&ffmpeg, &path, of(101, 119)).unwrap() == whole[101..], "{name}");
+        assert!(frames(&ffmpeg, &path, of(61, 78)).unwrap() == whole[61..=78], "{name}");
+        // Of frames that nobody looks at, nothing is told.
+        let apart = ReadOptions { looked_at: Some([60, 101].into()), ..of(60, 101) };
+        let found = frames(&ffmpeg, &path, ReadOptions { damaged: Damaged::Skip, ..apart }).unwrap();
+        assert!(found.first() == Some(&whole[60]) && found.last() == Some(&whole[101]), "{name}");
+    }
+}
+
+/// Within a transport stream a seek ends anywhere, and the decoder of HEVC makes up what it lacks there.
+#[test]
+fn frames_of_hevc_in_a_transport_stream_are_true_wherever_reading_begins() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.ts");
+    let hevc =
+        "-c:v libx265 -preset ultrafast -x265-params log-level=none:keyint=60:min-keyint=60:scenecut=0:bframes=0";
+    run(&format!("{} {hevc}", moving(128, 64, "25", 120)), &path);
+    let whole = frames(&ffmpeg, &path, ReadOptions::default()).unwrap();
+    for first in [55, 84, 110] {
+        let some = frames(&ffmpeg, &path, of(first, first + 2)).unwrap();
+        assert!(some == whole[first as usize..=first as usize + 2], "{first}");
+    }
+}
+
 /// Decoders that begin within a film complain of frames that lack others before that place, which is no damage.
 #[test]
 fn frames_of_open_groups_are_whole_wherever_reading_begins() {
@@ -183,7 +230,7 @@ fn frames_of_open_groups_are_whole_wherever_reading_begins() {
     let open = "-c:v libx264 -g 12 -bf 3 -x264-params open_gop=1:b-pyramid=2:scenecut=0";
     run(&format!("{} {open}", moving(128, 64, "25", 150)), &path);
     let whole = frames(&ffmpeg, &path, ReadOptions::default()).unwrap();
-    for first in [1, 12, 23, 24, 25, 35, 47, 50, 59, 60, 61, 70, 71, 72, 73, 84, 95, 107, 120, 133, 140] {
+    for first in [1, 23, 24, 25, 47, 59, 60, 61, 73] {
         let some = frames(&ffmpeg, &path, of(first, first + 5)).unwrap();
         assert!(some == whole[first as usize..=first as usize + 5], "{first}");
     }

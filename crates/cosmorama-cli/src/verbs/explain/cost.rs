@@ -21,7 +21,7 @@ pub(super) fn text(costs: &[SequenceCost], frames: Option<usize>) -> String {
             gigabytes((frames as u64).saturating_mul(cost.frame_bytes))
         )
     };
-    ["\n".to_owned()].into_iter().chain(costs.iter().map(of)).collect()
+    "\n".to_owned() + &costs.iter().map(of).collect::<String>()
 }
 
 /// Returns the costs of so many frames for programs.

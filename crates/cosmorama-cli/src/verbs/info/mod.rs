@@ -153,7 +153,10 @@ pub(super) fn damages(inputs: &dyn Files, files: &ViewFiles, frames: &[u64]) -> 
         frames => frames.iter().map(|frame| files.path(Some(*frame))).collect(),
     };
     let memory = MemoryBudget::new(None);
-    paths.iter().filter_map(|path| damage_of(inputs, path, memory)).collect()
+    let mut found: Vec<String> = paths.iter().filter_map(|path| damage_of(inputs, path, memory)).collect();
+    // A video that has failed tells the same of each frame behind.
+    found.dedup();
+    found
 }
 
 pub(super) fn add_damage(report: &mut Value, damaged: Vec<String>) {

@@ -300,6 +300,15 @@ fn frames_are_doubted_from_damage_to_the_next_key_frame() {
     let held = bench.run(&[&args[..], &["-y", "--frames", "18-22", "--damaged", "hold"]].concat());
     assert!(held.status.success(), "{}", text(&held.stderr));
     assert_says(&text(&held.stderr), &["2 frames may take after frame 13, which is damaged", "show traces"]);
+    // Of frames between that are not asked for, nothing is told.
+    let apart = bench.run(&[&args[..], &["-y", "--frames", "12,24", "--damaged", "hold"]].concat());
+    assert!(apart.status.success() && !text(&apart.stderr).contains("0 frames"), "{}", text(&apart.stderr));
+    // A frame that is left out is no reason to fail, if it is the only one that is lacking.
+    let skip = [&args[..], &["-y", "--frames", "10-15", "--damaged", "skip"]].concat();
+    assert!(bench.run(&skip).status.success());
+    let resume = [&args[..], &["--resume", "--frames", "10-15", "--damaged", "skip"]].concat();
+    let again = bench.run(&resume);
+    assert!(again.status.success(), "{}", text(&again.stderr));
     let whole = bench.run(&[&args[..], &["-y", "--frames", "20-25"]].concat());
     assert!(whole.status.success() && !text(&whole.stderr).contains("damaged"), "{}", text(&whole.stderr));
 }

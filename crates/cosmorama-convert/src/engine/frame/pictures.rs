@@ -6,7 +6,7 @@ use cosmorama::camera::View;
 use cosmorama::raster::{Encoder, FixedCodec, FixedLight, FramePool, Image, Rgba};
 use cosmorama::render::{Continuation, Progress, Share, Stopped};
 use cosmorama::world::Source;
-use cosmorama_io::{Format, WriteOptions};
+use cosmorama_io::WriteOptions;
 
 use crate::detect::FacePixels;
 use crate::detect::pixels::light_of;
@@ -544,11 +544,9 @@ fn bytes_while_moving(job: &ConvertJob) -> u64 {
 /// Returns whether nothing is done with the light of frames but filtering and encoding it. Of formats that hold floats, texels may be
 /// missing in any frame, and light may be brighter than samples hold, which is counted.
 fn is_only_filtered(job: &ConvertJob) -> bool {
-    let is_integer = |format: Format| format.depths().iter().all(|depth| !depth.is_float());
-    let are_integers = job.input.present().all(|(_, header, _)| is_integer(header.format));
     let is_alone = job.layers().count() == 1 && job.opacity >= 1.0 && job.is_complete();
     let is_plain = job.layers.is_plain() && job.formula().is_none();
-    are_integers && is_alone && is_plain && !job.is_blurred && !job.is_balance_asked_for()
+    job.input.holds_only_integers() && is_alone && is_plain && !job.is_blurred && !job.is_balance_asked_for()
 }
 
 /// Returns the memory of a frame. There are no pictures of light where samples are made at once.

@@ -7,8 +7,7 @@ use cosmorama_video::{Announced, AnnouncedBy, CutShort, Damaged, Ffmpeg, VideoEr
 pub(super) fn count(ffmpeg: &Ffmpeg, info: &VideoInfo, damaged: Damaged) -> Result<u64, VideoError> {
     let announced = match info.announced {
         Some(Announced { frames, by: AnnouncedBy::Count }) if !hides_frames(info, frames) => return Ok(frames),
-        Some(Announced { frames, by: AnnouncedBy::Count }) => Some(frames),
-        Some(Announced { frames, by: AnnouncedBy::Duration }) => Some(frames),
+        Some(Announced { frames, .. }) => Some(frames),
         None => None,
     };
     match (announced, info.cut) {

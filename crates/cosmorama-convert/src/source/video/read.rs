@@ -65,6 +65,9 @@ enum Decoder {
     Raw(RawReader),
 }
 
+/// First frames of faults, each with the number of frames and the reason.
+type Faults = BTreeMap<u64, (u64, String)>;
+
 /// Progress of a video's decoder.
 #[derive(Debug, Default)]
 struct State {
@@ -86,10 +89,10 @@ struct State {
     has_more: bool,
     /// Error after which there are no more frames.
     failure: Option<Shared>,
-    /// Faults of frames that are left out, or in place of which others are shown: the first of each, with their number and the reason.
-    faults: BTreeMap<u64, (u64, String)>,
+    /// Faults of frames that are left out, or in place of which others are shown.
+    faults: Faults,
     /// Damaged frames before those that were asked for, after which some of these take.
-    before: BTreeMap<u64, (u64, String)>,
+    before: Faults,
 }
 
 /// Frames at most that are held before they are asked for. Threads ask for few frames out of order; those that are dropped are
@@ -223,14 +226,14 @@ impl Videos {
         });
         let further = further.or(cut);
         let behind = further.map(|reason| (announced..announced + 1, reason));
-        let (traced, reason) = source.traces(&state);
+        let (traced, reason) = source.traces(&state, &[&state.faults, &state.before]);
         let traced = traced.into_iter().map(|frames| (frames, reason.to_owned()));
         Ok(state.faults.iter().map(ranged).chain(traced).chain(behind).collect())
     }
 
-    /// Returns messages about frames that were damaged, and about frames that were not announced; an item for each video.
+    /// Returns messages about frames that were damaged, and about frames that were not announced.
     pub(crate) fn complaints(&self) -> Vec<String> {
-        self.sources().values().filter_map(|source| source.complaint()).collect()
+        self.sources().values().flat_map(|source| source.complaints()).collect()
     }
 
     /// Returns what a video is; `None` for a stream of raw pictures.
@@ -276,12 +279,12 @@ impl Source {
     fn film(ffmpeg: Arc<Ffmpeg>, video: &Path, damaged: DamagedFrames) -> Result<Self, VideoError> {
         let mut info = ffmpeg.probe(video)?;
         let half = ffmpeg.second_half(&info)?;
-        // Several threads would not always make the same of what takes after damaged frames.
+        // Several threads would not always make the same of what takes after damaged frames, nor tell of the same frames.
         let (damaged, threads) = match damaged {
             DamagedFrames::Error => (Damaged::Error, 0),
             DamagedFrames::Hold => (Damaged::Hold, 1),
             DamagedFrames::Skip => (Damaged::Skip, 1),
-            DamagedFrames::Find => (Damaged::Skip, 0),
+            DamagedFrames::Find => (Damaged::Skip, 1),
         };
         let (mut frames, mut header) = (count(&ffmpeg, &info, damaged)?, described::header(&info));
         if let Some(half) = &half {
@@ -409,7 +412,8 @@ impl Source {
         let frames = (!is_all).then_some(first..=last);
         let rows = state.rows.clone().filter(|_| half.is_none());
         let (damaged, memory, threads) = (self.damaged, limits.memory, self.threads);
-        let options = ReadOptions { frames, rows, damaged, memory, threads };
+        let looked_at = state.is_expected.then(|| state.wanted.range(first..).copied().chain([asked]).collect());
+        let options = ReadOptions { frames, looked_at, rows, damaged, memory, threads };
         let decoder = match half {
             Some(half) => Decoder::Pair(Box::new(PairedReader::open(ffmpeg, info, half, options)?)),
             None => Decoder::Film(Box::new(VideoReader::open(ffmpeg, info, options)?)),
@@ -433,49 +437,59 @@ impl Source {
         Ok(())
     }
 
-    fn complaint(&self) -> Option<String> {
+    /// Returns messages about frames that were damaged, and about those that were not announced, or may be lacking.
+    fn complaints(&self) -> Vec<String> {
         let mut state = self.state();
-        let path = self.name.display();
-        if state.has_more {
-            return Some(format!("{path}: {}", more_than(self.count)));
-        }
-        state.close();
-        let traced: u64 = self.traces(&state).0.iter().map(|range| range.end - range.start).sum();
-        let Some((first, (_, reason))) = state.faults.first_key_value() else {
-            if let Some((damaged, (_, reason))) = state.before.first_key_value() {
-                return Some(format!(
-                    "{path}: {traced} {} take after frame {damaged}, which is damaged ({reason}) though it is not asked for, and show traces",
-                    if traced == 1 { "frame may" } else { "frames may" }
-                ));
-            }
-            let CutShort { expected, found } = self.cut().filter(|_| self.damaged != Damaged::Error)?;
-            let read = state.asked.len();
-            return Some(format!(
-                "{path}: the file is cut, with {found} of at least {expected} bytes; there may have been more frames than the {read} that are read"
-            ));
+        let found = if state.has_more {
+            vec![more_than(self.count)]
+        } else {
+            state.close();
+            let cut = self.cut().filter(|_| state.faults.is_empty() && self.damaged != Damaged::Error);
+            let cut = cut.map(|cut| may_lack(cut, state.asked.len()));
+            [self.of_faults(&state), self.of_faults_before(&state), cut].into_iter().flatten().collect()
         };
+        found.into_iter().map(|found| format!("{}: {found}", self.name.display())).collect()
+    }
+
+    /// Tells of frames that were held or left out.
+    fn of_faults(&self, state: &State) -> Option<String> {
+        let (first, (_, reason)) = state.faults.first_key_value()?;
         let count: u64 = state.faults.values().map(|(count, _)| count).sum();
         let instead = if self.damaged == Damaged::Skip {
             "left out, so that what follows comes earlier than its sound"
         } else {
             "replaced by the one before"
         };
-        let further = match traced {
+        let further = match self.traced(state, &state.faults) {
             0 => String::new(),
             1 => "; 1 further frame may take after them, and show traces".to_owned(),
-            _ => format!("; {traced} further frames may take after them, and show traces"),
+            traced => format!("; {traced} further frames may take after them, and show traces"),
         };
         Some(format!(
-            "{path}: {count} {} damaged or missing, and {instead}; the first is frame {first} ({reason}){further}",
+            "{count} {} damaged or missing, and {instead}; the first is frame {first} ({reason}){further}",
             if count == 1 { "frame is" } else { "frames are" }
         ))
     }
 
+    /// Tells of frames that may take after one that was not asked for.
+    fn of_faults_before(&self, state: &State) -> Option<String> {
+        let (damaged, (_, reason)) = state.before.first_key_value()?;
+        let traced = self.traced(state, &state.before);
+        (traced > 0).then(|| {
+            let frames = if traced == 1 { "frame may" } else { "frames may" };
+            format!("{traced} {frames} take after frame {damaged}, which is damaged ({reason}) though it is not asked for, and show traces")
+        })
+    }
+
+    fn traced(&self, state: &State, faults: &Faults) -> u64 {
+        self.traces(state, &[faults]).0.iter().map(|range| range.end - range.start).sum()
+    }
+
     /// Returns the frames that may show traces of damaged ones, of those that were asked for, with the reason: all behind the first one
     /// where the file's own order cannot be read.
-    fn traces(&self, state: &State) -> (Vec<Range<u64>>, &'static str) {
+    fn traces(&self, state: &State, faults: &[&Faults]) -> (Vec<Range<u64>>, &'static str) {
         let Content::Film { ffmpeg, info, half } = &self.content else { return (Vec::new(), TRACES) };
-        let faults = state.faults.iter().chain(&state.before);
+        let faults = faults.iter().copied().flatten();
         let damaged: Vec<_> = faults.map(|(first, (count, _))| *first..first + count).collect();
         let Some(first) = damaged.iter().min_by_key(|range| range.start) else { return (Vec::new(), TRACES) };
         let streams = std::iter::once(&**info).chain(half.iter().map(|half| &half.info));
@@ -500,6 +514,13 @@ const TRACES: &str = "it takes after a damaged frame, and may show traces of it"
 
 /// Finding about a frame behind a damaged one, where it is not known which take after it.
 const UNSURE: &str = "a frame before it is damaged, and the file does not tell which take after that";
+
+/// Returns the complaint about frames that a cut file may lack, when so many were read.
+fn may_lack(CutShort { expected, found }: CutShort, read: usize) -> String {
+    format!(
+        "the file is cut, with {found} of at least {expected} bytes; there may have been more frames than the {read} that are read"
+    )
+}
 
 /// Returns the complaint about frames that were not announced.
 fn more_than(announced: u64) -> String {
