@@ -20,8 +20,7 @@ use crate::engine::{
 use crate::job::options::write_options;
 use crate::job::{Content, ConvertJob, FrameOutputs};
 use crate::settings::LightSettings;
-use crate::source::video::DamagedFrames;
-use crate::source::video::{FrameName, Videos};
+use crate::source::video::{DamagedFrames, FrameName, Videos};
 
 /// Threads that wait for disks while a sequence is made.
 const WAITING: usize = 8;

@@ -1,7 +1,6 @@
 //! Damage before the first frame that is asked for, and at the end of those that are.
 
 use super::reader::MARGIN;
-use super::traces::traces;
 use super::{Damaged, Fault, ReadOptions, VideoReader};
 use crate::probe::CodedFrame;
 use crate::{Ffmpeg, Timeline, VideoError, VideoInfo};
@@ -87,7 +86,7 @@ impl Damage {
         let all = if self.coded.is_empty() && !faults.is_empty() {
             vec![frame]
         } else {
-            traces(&self.coded, timeline, &info.meant(&damaged))
+            info.traced(&self.coded, timeline, &damaged)
         };
         let traced = all.into_iter().find(|traced| *traced >= frame && options.looks_at(*traced))?;
         Some(Before { faults, traced })

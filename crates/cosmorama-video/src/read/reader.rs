@@ -210,11 +210,14 @@ impl VideoReader {
                 self.restart(None)?;
                 continue;
             }
-            let is_doubtful = decoder.take_doubt() && std::mem::take(&mut self.may_look_before);
-            self.may_restart = false;
-            if is_doubtful {
-                self.look_before()?;
-                continue;
+            let has_sought = std::mem::take(&mut self.may_restart);
+            if decoder.take_doubt() && std::mem::take(&mut self.may_look_before) {
+                let from = self.look_before()?;
+                if has_sought {
+                    // Some decoders make up frames that they lack: decoding begins again, farther before.
+                    self.restart(start(&self.info, &self.timeline, from).seek)?;
+                    continue;
+                }
             }
             if let Some(Fault { reason, .. }) = self.own.take() {
                 frame.is_corrupt |= index == self.expected;
@@ -238,27 +241,22 @@ impl VideoReader {
         // The old one is ended first.
         self.decoder = None;
         self.decoder = Some(Decoder::start(&self.ffmpeg, &self.info, &self.options, start)?);
+        self.may_restart = seek.is_some();
         Ok(())
     }
 
-    /// Finds out whether frames up to the first one that is asked for are damaged. Where decoding began within the file it begins again,
-    /// farther before: some decoders make up frames that they lack.
-    fn look_before(&mut self) -> Result<(), VideoError> {
+    /// Finds out whether frames up to the first one that is asked for are damaged. Returns the frame from which was looked.
+    fn look_before(&mut self) -> Result<u64, VideoError> {
         let first = self.expected;
         let damage = self.looked().damage((first, first))?;
         self.own = damage.of(first).cloned();
         if let Some(Before { faults, traced }) = damage.before(first, self.looked()) {
             if let (Damaged::Error, Some(Fault { frame, reason, .. })) = (self.options.damaged, faults.first()) {
-                return self.tell(
-                    *frame,
-                    1,
-                    format!("{reason}; frame {traced}, which is asked for, may take after it"),
-                );
+                self.tell(*frame, 1, format!("{reason}; frame {traced}, which is asked for, may take after it"))?;
             }
             self.before = faults;
         }
-        let seek = start(&self.info, &self.timeline, damage.start).seek;
-        self.restart(seek)
+        Ok(damage.start)
     }
 
     fn looked(&self) -> Looked<'_> {

@@ -18,16 +18,23 @@ impl Ffmpeg {
         } else {
             self.timeline(info)?
         };
-        Ok((!coded.is_empty()).then(|| traces(&coded, &timeline, &info.meant(damaged))))
+        Ok((!coded.is_empty()).then(|| info.traced(&coded, &timeline, damaged)))
     }
 }
 
 impl VideoInfo {
-    /// Returns the frames that may be meant where a decoder leaves some out. Those of MPEG hold a frame back, which they lose when the next
-    /// one is damaged; that one they paint over.
-    pub(super) fn meant(&self, damaged: &[Range<u64>]) -> Vec<Range<u64>> {
-        let held_back = u64::from(["mpeg1video", "mpeg2video", "mpeg4"].contains(&self.codec.as_str()));
-        damaged.iter().map(|frames| frames.start..frames.end + held_back).collect()
+    /// Returns the frames, of these coded ones, that may show traces of damaged ones. Decoders of MPEG hold a frame back, which they lose when
+    /// the next one is damaged; that one they paint over and give, so that it counts, too.
+    pub(super) fn traced(&self, coded: &[CodedFrame], timeline: &Timeline, damaged: &[Range<u64>]) -> Vec<u64> {
+        if !["mpeg1video", "mpeg2video", "mpeg4"].contains(&self.codec.as_str()) {
+            return traces(coded, timeline, damaged);
+        }
+        let meant: Vec<_> = damaged.iter().map(|frames| frames.start..frames.end + 1).collect();
+        let painted = shown_times(coded).into_iter().map(|time| timeline.frame(time));
+        let painted = painted.filter(|frame| damaged.iter().any(|frames| frames.end == *frame));
+        let mut found: BTreeSet<u64> = traces(coded, timeline, &meant).into_iter().chain(painted).collect();
+        found.retain(|frame| damaged.iter().all(|frames| !frames.contains(frame)));
+        found.into_iter().collect()
     }
 }
 
@@ -41,7 +48,7 @@ enum Doubtful {
 }
 
 /// Returns the frames that may show traces of damaged ones, from all in the order of decoding.
-pub(super) fn traces(coded: &[CodedFrame], timeline: &Timeline, damaged: &[Range<u64>]) -> Vec<u64> {
+fn traces(coded: &[CodedFrame], timeline: &Timeline, damaged: &[Range<u64>]) -> Vec<u64> {
     let numbers: Vec<u64> = coded.iter().map(|frame| timeline.frame(frame.time)).collect();
     let damaged = disjoint(damaged);
     let lost = begins_behind_lost(&numbers, &damaged);

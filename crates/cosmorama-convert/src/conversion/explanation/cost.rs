@@ -144,8 +144,7 @@ impl Explanation {
     /// Returns the costs of making all pictures, frame by frame, by their reports.
     pub fn costs(&self, worlds: &[World], reports: &[Report]) -> Vec<SequenceCost> {
         let (input, sizes) = (self.needed(reports), self.file_sizes());
-        let has_shutter = self.movement.as_ref().is_some_and(|(movement, _)| movement.blur.is_some());
-        let is_by_strips = are_too_large(sizes.iter().copied()) && makes_strips(&self.filter, has_shutter);
+        let is_by_strips = are_too_large(sizes.iter().copied()) && makes_strips(&self.filter, self.has_shutter());
         let scene = Scene { input, worlds, reports, sizes, is_by_strips };
         CostedFiles::ALL.into_iter().map(|files| self.pool.install(|| self.cost(files, &scene))).collect()
     }
@@ -173,6 +172,10 @@ impl Explanation {
         }
     }
 
+    fn has_shutter(&self) -> bool {
+        self.movement.as_ref().is_some_and(|(movement, _)| movement.blur.is_some())
+    }
+
     /// Returns the needs of one frame of many. A world that a moving camera looks at may be a still one; other files, and those that do not
     /// exist yet, change from frame to frame.
     fn of_many(&self, needs: FrameNeeds, input: &Input) -> FrameNeeds {
@@ -187,9 +190,8 @@ impl Explanation {
     fn manner(&self, files: CostedFiles, Scene { input, reports, .. }: &Scene) -> Manner {
         let floats = Held::of_samples(files.pixel_bytes(input));
         let any = Manner { alone: floats, kept: floats, arithmetic: Arithmetic::Float };
-        let is_blurred = self.movement.as_ref().is_some_and(|(movement, _)| movement.blur.is_some());
         let is_complete = reports.iter().all(|report| report.uncovered.is_none());
-        if files == CostedFiles::Halves || is_blurred || !is_complete || is_balanced(&self.filter) {
+        if files == CostedFiles::Halves || self.has_shutter() || !is_complete || is_balanced(&self.filter) {
             return any;
         }
         if Arithmetic::Fixed.has_plan_of(self.filter.kind) && takes_integers(input) {

@@ -73,7 +73,7 @@ impl Verification<'_> {
     /// [`ConvertError::Stopped`] if the observer ends it.
     pub fn run(&self, files: Arc<dyn Files>, observer: &mut dyn Observer) -> Result<Verified> {
         // A decoder goes on after a frame that it leaves out.
-        let files = &ChosenFiles::new(files, Choice::default(), DamagedFrames::Find);
+        let files = &ChosenFiles::new(files, Choice::default(), DamagedFrames::Skip);
         let series = series(self.pattern)?;
         let wanted = self.wanted(&series, files)?;
         let video = series.video().zip(files.videos());

@@ -286,7 +286,7 @@ fn settings(plan: &VideoPlan, size: (usize, usize)) -> Result<WriteSettings> {
         spatial: described::tags(plan.to.as_ref(), size),
         codec: codec(plan)?,
         arguments: plan.settings.arguments.clone(),
-        frames: plan.frames.filter(|_| matches!(plan.settings.damaged, DamagedFrames::Error | DamagedFrames::Hold)),
+        frames: plan.frames.filter(|_| plan.settings.damaged != DamagedFrames::Skip),
         ..WriteSettings::new(size, Ratio::ONE)
     })
 }

@@ -284,7 +284,6 @@ impl Source {
             DamagedFrames::Error => (Damaged::Error, 0),
             DamagedFrames::Hold => (Damaged::Hold, 1),
             DamagedFrames::Skip => (Damaged::Skip, 1),
-            DamagedFrames::Find => (Damaged::Skip, 1),
         };
         let (mut frames, mut header) = (count(&ffmpeg, &info, damaged)?, described::header(&info));
         if let Some(half) = &half {

@@ -29,9 +29,6 @@ pub enum DamagedFrames {
     Hold,
     /// There is no such frame in the output, with a warning.
     Skip,
-    /// There is no such frame, and only which ones is asked: the decoder takes all threads, and what it makes of frames that take after
-    /// damaged ones may be another picture each time.
-    Find,
 }
 
 /// Plan of the videos that a conversion makes.
