@@ -56,6 +56,12 @@ impl Progress {
         Self::of("frame", style, total)
     }
 
+    /// Starts the progress of one work before the first thing that is made. In a log, it is told if it takes long.
+    pub(crate) fn before(style: ProgressStyle) -> Self {
+        let is_bar = std::io::stderr().is_terminal();
+        Self::of("frame", if style == ProgressStyle::Auto && !is_bar { ProgressStyle::Plain } else { style }, 1)
+    }
+
     /// Starts the progress of this number of things of a name.
     pub(crate) fn of(noun: &'static str, style: ProgressStyle, total: impl Into<Option<usize>>) -> Self {
         let total = total.into();
@@ -114,6 +120,7 @@ impl Progress {
                 let (work, frame) = match work {
                     Work::Render(frame) => ("render", frame),
                     Work::Filters => ("filters", None),
+                    Work::Path => ("path", None),
                     _ => ("plan", None),
                 };
                 let line = serde_json::json!({
@@ -189,6 +196,7 @@ impl std::fmt::Display for Advance {
             Work::Render(None) => f.write_str("picture")?,
             Work::Render(Some(frame)) => write!(f, "frame {frame}")?,
             Work::Filters => f.write_str("filters")?,
+            Work::Path => f.write_str("camera's path")?,
             _ => f.write_str("geometry")?,
         }
         match work {
@@ -252,6 +260,7 @@ mod tests {
         assert_eq!(said(ProgressStyle::Plain, 9, Work::Render(Some(7)))[0], "frame 7: 20 % done, 8 s left");
         let lines = said(ProgressStyle::Plain, 9, Work::Plan);
         assert_eq!((&*lines[0], &*lines[4]), ("geometry: 20 % done, 8 s left", "geometry: 100 % done, 0 s left"));
+        assert_eq!(said(ProgressStyle::Plain, 1, Work::Path)[0], "camera's path: 20 % done, 8 s left");
         assert_eq!(said(ProgressStyle::Openjd, 4, Work::Render(None))[1], "openjd_progress: 10.00");
         assert_eq!(said(ProgressStyle::Openjd, 4, Work::Plan)[0], "openjd_status: geometry: 20 % done, 8 s left");
         let line: serde_json::Value =

@@ -23,7 +23,8 @@ pub use ffmpeg::{Ffmpeg, Version};
 pub use probe::{Announced, AnnouncedBy, CutShort, OtherStream, StreamKind, Timeline, Turn, VideoInfo};
 pub use ratio::Ratio;
 pub use read::{
-    Damaged, Fault, FrameCondition, HalfPlace, PairedReader, ReadOptions, SecondHalf, VideoFrame, VideoReader,
+    CodedOrder, Damaged, Fault, FrameCondition, HalfPlace, PairedReader, ReadOptions, SecondHalf, VideoFrame,
+    VideoReader,
 };
 pub use spatial::{Bounds, SpatialTags, SphericalPose, SphericalProjection, StereoMode};
 pub use stream::{ByteOrder, PamReader, PamWriter, PfmReader, PfmWriter, Subsampling, Y4mFormat, Y4mReader, Y4mWriter};

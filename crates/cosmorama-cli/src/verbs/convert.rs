@@ -38,7 +38,8 @@ pub(super) fn run(args: ConvertArgs, console: &mut Console) -> Result<ExitCode> 
 /// Converts, and prints diagnostics and progress meanwhile.
 pub(super) fn convert(conversion: Conversion, style: ProgressStyle, console: &Console) -> Result<Report> {
     let mut watch = Watch::new(console, style);
-    let checked = Conversion { unfinished: console.unfinished.clone(), ..conversion }.check();
+    let checked = Conversion { unfinished: console.unfinished.clone(), ..conversion }.check_watched(&mut watch);
+    watch.finish();
     console.tell_all(&checked);
     let report = checked.result?.run(&mut watch)?;
     watch.finish();
@@ -66,6 +67,7 @@ impl<'a> Watch<'a> {
 
 impl Observer for Watch<'_> {
     fn begin(&mut self, frames: Option<usize>) {
+        self.finish();
         self.progress = Some(Progress::new(self.style, frames));
     }
 
@@ -78,7 +80,9 @@ impl Observer for Watch<'_> {
     }
 
     fn advance(&mut self, work: Work, fraction: f64) -> ControlFlow<Stop> {
-        self.progress.iter_mut().for_each(|progress| progress.advance(work, fraction));
+        // What goes before the first frame is told where that is asked for, however many frames there are.
+        let style = self.style;
+        self.progress.get_or_insert_with(|| Progress::before(style)).advance(work, fraction);
         ControlFlow::Continue(())
     }
 

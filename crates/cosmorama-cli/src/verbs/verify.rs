@@ -87,6 +87,8 @@ fn told(fault: &Fault) -> String {
         Fault::Size { found: (width, height), expected } => format!("of size {width}x{height} instead of {expected}"),
         Fault::Kind(kind) => format!("unlike most, {kind}"),
         Fault::Settings => "made by other settings than most".to_owned(),
+        Fault::Held => "made of another frame, in the place of a damaged one".to_owned(),
+        Fault::Traces => "made of a frame that takes after a damaged one, and may show traces of it".to_owned(),
         Fault::Black => "black".to_owned(),
         Fault::Frozen => "equal to the frame before".to_owned(),
         Fault::Flash => "a flash, far from both neighbours".to_owned(),
@@ -103,7 +105,8 @@ fn json_of(args: &VerifyArgs, verified: &Verified) -> Value {
                 found["expected"] = json!(expected.to_string());
             }
             Fault::Kind(kind) => found["found"] = json!(kind),
-            Fault::Missing | Fault::Settings | Fault::Black | Fault::Frozen | Fault::Flash => {}
+            Fault::Missing | Fault::Settings | Fault::Held | Fault::Traces => {}
+            Fault::Black | Fault::Frozen | Fault::Flash => {}
         }
         found
     };

@@ -3,11 +3,14 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use cosmorama::explain;
+use cosmorama::render::Progress;
 use cosmorama_io::FrameList;
 use cosmorama_spec::TimeRanges;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use super::videos;
+use super::advance::watched;
+use super::run::stopped;
+use super::{Observer, Quiet, Work, videos};
 use crate::diagnostic::{Diagnostic, FRAMES, FROM, IN_PATH, Outcome, Result, bail, failure, usage};
 use crate::engine::{FrameFile, Stage, Stages};
 use crate::input::is_one_file;
@@ -35,20 +38,28 @@ impl Conversion {
     /// Checks the settings against the files. Only headers are read, and pixels only where nothing else tells the
     /// projection. Diagnostics are valid with an error, too: the cause may be a wrong guess.
     pub fn check(self) -> Outcome<Checked> {
+        self.check_watched(&mut Quiet)
+    }
+
+    /// Checks the settings against the files, as [`check`](Self::check) does, while an observer is told how far that is: along a camera's
+    /// path, each frame is looked at.
+    pub fn check_watched(self, observer: &mut dyn Observer) -> Outcome<Checked> {
         let mut diagnostics = Vec::new();
-        let result = self.checked(&mut diagnostics);
+        let result = self.checked(&mut diagnostics, observer);
         Outcome { result, diagnostics }
     }
 
-    fn checked(self, diagnostics: &mut Vec<Diagnostic>) -> Result<Checked> {
+    fn checked(self, diagnostics: &mut Vec<Diagnostic>, observer: &mut dyn Observer) -> Result<Checked> {
         let (start, stages) = (Instant::now(), Stages::default());
         let settings = with_frames_at_times(with_layers(self)?)?;
         let content = Content::of(&settings)?;
         let pool = threads(settings.limits.threads)?;
         let allowed = MemoryBudget::new(settings.limits.memory);
-        let resolve =
-            || stages.alone(Stage::Plan, || ConvertJob::resolve(&settings, (content, Purpose::Pictures), diagnostics));
-        let job = pool.install(resolve)?;
+        let resolve = |progress: &dyn Progress| {
+            let job = || ConvertJob::resolve(&settings, (content, Purpose::Pictures), (diagnostics, progress));
+            stages.alone(Stage::Plan, job)
+        };
+        let job = watched(&pool, observer, Work::Path, resolve).unwrap_or_else(|| Err(stopped((0, None))))?;
         if content.has_files() {
             let check = || job.layers().try_for_each(FrameFile::check_frames);
             pool.install(|| stages.alone(Stage::Decode, check))?;

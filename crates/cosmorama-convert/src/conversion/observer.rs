@@ -10,6 +10,8 @@ pub struct Stop;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Work {
+    /// Looking for what the input lacks for the frames of a moving camera.
+    Path,
     /// Compiling the geometry that all frames share.
     Plan,
     /// Rendering the pictures of a frame; `None` for one without a number.

@@ -292,7 +292,7 @@ impl Run<'_> {
 }
 
 /// Creates the error of a stop, when `done` of all `frames` are written.
-fn stopped((done, frames): (usize, Option<usize>)) -> ConvertError {
+pub(super) fn stopped((done, frames): (usize, Option<usize>)) -> ConvertError {
     ConvertError::Stopped { done, frames }
 }
 

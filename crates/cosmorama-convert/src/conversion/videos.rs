@@ -1,11 +1,11 @@
 //! Videos that a conversion makes: what is known of them before their first frame.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::diagnostic::{Code, DAMAGED, Diagnostic, Result};
 use crate::job::ConvertJob;
 use crate::settings::Conversion;
-use crate::source::video::{DamagedFrames, MadeVideos, VideoPlan, VideoSource};
+use crate::source::video::{DamagedFrames, MadeVideos, RawKind, VideoPlan, VideoSource};
 use crate::target::TargetFile;
 
 /// Checks the settings of the videos that are made, if there are any.
@@ -14,11 +14,16 @@ pub(super) fn check(settings: &Conversion, job: &ConvertJob) -> Result<()> {
     if outputs.is_empty() { Ok(()) } else { MadeVideos::check(&outputs, &plan(settings, job), job.files.videos()) }
 }
 
-/// Returns a warning where an answer to damaged frames is given, and no input is a video.
+/// Returns a warning where an answer to damaged frames is given, and no input is a film.
 pub(super) fn idle(settings: &Conversion, job: &ConvertJob) -> Option<Diagnostic> {
-    let is_video = |job: &ConvertJob| job.input.present().any(|(view, ..)| view.files.video().is_some());
-    let is_idle = settings.video.damaged != DamagedFrames::Error && !job.layers().any(is_video);
-    let message = || format!("{DAMAGED} has no effect: no input is a video; a picture that is damaged is an error");
+    let is_film = |path: &Path| RawKind::of(path).is_none();
+    let has_film = |job: &ConvertJob| job.input.present().any(|(view, ..)| view.files.video().is_some_and(is_film));
+    let is_idle = settings.video.damaged != DamagedFrames::Error && !job.layers().any(has_film);
+    let message = || {
+        format!(
+            "{DAMAGED} has no effect: no input is a film; a damaged picture, or a stream of pictures that is cut, is an error"
+        )
+    };
     is_idle.then(|| Diagnostic::warning(Code::NoEffect, message()))
 }
 

@@ -112,7 +112,9 @@ impl WorldLight {
     pub(super) fn of(settings: Conversion, diagnostics: &mut Vec<Diagnostic>) -> Result<Self> {
         let content = Content::of(&settings)?;
         let pool = threads(settings.limits.threads)?;
-        let job = pool.install(|| ConvertJob::resolve(&settings, (content, Purpose::Light), diagnostics))?;
+        let resolve =
+            || ConvertJob::resolve(&settings, (content, Purpose::Light), (diagnostics, &|_| ControlFlow::Continue(())));
+        let job = pool.install(resolve)?;
         if job.outputs.are_many() {
             let count = job.outputs.count().map_or("any number of".to_owned(), |count| count.to_string());
             return Err(usage(format!(

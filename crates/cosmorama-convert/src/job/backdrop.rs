@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use cosmorama::filter::FilterSettings;
 use cosmorama::raster::{Channels, Rgba};
+use cosmorama::render::Progress;
 use cosmorama_io::{Choice, FrameList};
 use cosmorama_spec::{FrameMap, Missing};
 
@@ -43,6 +44,8 @@ pub(crate) struct Front<'a> {
     pub(crate) filter: FilterSettings,
     /// Memory that the input leaves.
     pub(crate) memory: MemoryBudget,
+    /// Receives how far its files are compared with what is needed of them.
+    pub(crate) progress: &'a dyn Progress,
 }
 
 impl FoundBackdrop {
@@ -195,7 +198,7 @@ impl FoundBackdrop {
             input,
         };
         if content.has_files() {
-            job.cover(front.frames, warnings)
+            job.cover(front.frames, (warnings, front.progress))
                 .map_err(|error| error.after(&format!("{BACKDROP} {}: ", settings.input)))?;
         }
         Ok(job)

@@ -7,7 +7,7 @@ use cosmorama::filter::{Classic, Filter, FilterKind, FilterSettings, Kernel};
 use cosmorama::lighting::PreparedLight;
 use cosmorama::motion::{Exposure, Moment, Pose};
 use cosmorama::raster::{Channels, Depth, FixedCodec, Rgba};
-use cosmorama::render::{Accuracy, Arithmetic, Needs, Resampler};
+use cosmorama::render::{Accuracy, Arithmetic, Needs, Progress, Resampler, Share};
 use cosmorama::world::World;
 use cosmorama_builtin::BuiltinWorld;
 use cosmorama_io::{Choice, Format, FrameList};
@@ -162,7 +162,7 @@ impl ConvertJob {
     pub(crate) fn resolve(
         settings: &Conversion,
         (content, purpose): (Content, Purpose),
-        warnings: &mut Vec<Diagnostic>,
+        (warnings, progress): (&mut Vec<Diagnostic>, &dyn Progress),
     ) -> Result<Self> {
         let memory = MemoryBudget::new(settings.limits.memory);
         let file = content.has_files().then_some(&settings.input);
@@ -229,8 +229,9 @@ impl ConvertJob {
                 let (movement, filter) = (movement.as_ref(), filter);
                 let needs = FrameNeeds::of(&input, &[], &target, Held::any()).of_many().least(&target);
                 let own = memory.beside_frame(needs);
-                let job = found.resolve(&Front { frames, target: &target, movement, filter, memory: own }, warnings)?;
-                Some(job)
+                let progress = &Share::of(progress, (0, 2));
+                let front = Front { frames, target: &target, movement, filter, memory: own, progress };
+                Some(found.resolve(&front, warnings)?)
             }
         };
         let behind = backdrop.as_ref().map(|job| &job.light);
@@ -301,10 +302,10 @@ impl ConvertJob {
         job.check_scale()?;
         if content.has_files() {
             let first = job.input.frames.first().map_or_else(Vec::new, |frame| job.input.paths(*frame));
-            let files = Arc::clone(&job.files);
-            let frames = job.input.frames.clone();
-            let memory = job.memory;
-            job.cover(&frames, warnings).map_err(|error| unless_damaged((&*files, memory), first, error))?;
+            let (files, frames, memory) = (Arc::clone(&job.files), job.input.frames.clone(), job.memory);
+            let progress = &Share::of(progress, if job.backdrop.is_some() { (1, 2) } else { (0, 1) });
+            job.cover(&frames, (warnings, progress))
+                .map_err(|error| unless_damaged((&*files, memory), first, error))?;
         } else {
             job.memory.check_frame(job.frame_needs(), &job.input, &job.target)?;
         }
@@ -348,7 +349,7 @@ impl ConvertJob {
     }
 
     /// Checks that the input covers the output in these frames, and that memory suffices.
-    pub(super) fn cover(&mut self, frames: &[Option<u64>], warnings: &mut Vec<Diagnostic>) -> Result<()> {
+    pub(super) fn cover(&mut self, frames: &[Option<u64>], told: (&mut Vec<Diagnostic>, &dyn Progress)) -> Result<()> {
         let shots = match &self.movement {
             Some(movement) => Shot::all(movement, &self.target.views, frames)?,
             None => vec![Shot { frames: Vec::new(), views: self.target.views.clone() }],
@@ -361,7 +362,7 @@ impl ConvertJob {
             (self.coverage, self.worlds) = Coverage::of_sphere(input, whole, self.missing)?;
             return self.keep_for_light();
         }
-        (self.coverage, self.worlds) = Coverage::check(input, whole, &shots, filter, self.missing, warnings)?;
+        (self.coverage, self.worlds) = Coverage::check(input, whole, &shots, filter, self.missing, told)?;
         for world in &self.worlds {
             filter.check(world).map_err(|error| usage(format!("{FILTER}: {error}")))?;
         }

@@ -1,6 +1,6 @@
 use cosmorama::filter::FilterSettings;
 use cosmorama::raster::Rgba;
-use cosmorama::render::Beyond;
+use cosmorama::render::{Beyond, Progress, Share};
 use cosmorama::sphere::Direction;
 use cosmorama::world::{Source, World, WorldView};
 use cosmorama_spec::{Missing, Size};
@@ -54,12 +54,13 @@ impl Coverage {
         shots: &[Shot],
         filter: &FilterSettings,
         missing: Missing,
-        warnings: &mut Vec<Diagnostic>,
+        (warnings, progress): (&mut Vec<Diagnostic>, &dyn Progress),
     ) -> Result<(Self, Vec<World>)> {
         let mut gaps = Vec::new();
         let count = nominal.len();
         for (index, (views, nominal)) in input.worlds.iter_mut().zip(&nominal).enumerate() {
-            gaps.extend(find_gaps(views, (nominal, index, count), shots, filter, warnings)?);
+            let progress = &Share::of(progress, (index, count));
+            gaps.extend(find_gaps(views, (nominal, index, count), shots, filter, (warnings, progress))?);
         }
         let coverage = match missing {
             _ if gaps.is_empty() => Self::Complete,

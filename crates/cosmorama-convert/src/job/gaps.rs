@@ -3,7 +3,7 @@
 use cosmorama::camera::{Canvas, PixelRect, View};
 use cosmorama::filter::FilterSettings;
 use cosmorama::motion::Pose;
-use cosmorama::render::{Accuracy, Need, Needs, Uncovered};
+use cosmorama::render::{Accuracy, Need, Needs, Progress, Uncovered};
 use cosmorama::world::World;
 use cosmorama_io::FrameList;
 
@@ -56,7 +56,7 @@ pub(crate) fn find_gaps(
     (nominal, index, count): (&World, usize, usize),
     shots: &[Shot],
     filter: &FilterSettings,
-    warnings: &mut Vec<Diagnostic>,
+    (warnings, progress): (&mut Vec<Diagnostic>, &dyn Progress),
 ) -> Result<Vec<String>> {
     if is_whole_panorama(views) {
         return Ok(Vec::new());
@@ -66,10 +66,12 @@ pub(crate) fn find_gaps(
     let mut uncovered: Option<(String, Vec<u64>, Uncovered)> = None;
     // Whether the files hold all that some shot may need.
     let mut is_held = false;
-    for Shot { frames, views: targets } in shots {
+    for (place, Shot { frames, views: targets }) in shots.iter().enumerate() {
         let targets: Vec<&TargetView> = targets.iter().filter(|target| target.world(count) == index).collect();
         let geometry: Vec<View> = targets.iter().map(|target| target.view.clone()).collect();
-        let mut needs = Needs::of(nominal, &geometry, filter, Accuracy::Bounds);
+        // Of a view that is read anyway, and holds what it may have to, there is nothing to be found.
+        let matters = |at: usize, need: &Need| !(views[at].wanted && holds((&views[at], need)));
+        let mut needs = Needs::bounds(nominal, &geometry, filter, matters);
         let sees_any = needs.views.iter().any(|need| need.seen.is_some());
         views.iter_mut().zip(&needs.views).for_each(|(view, need)| view.wanted |= need.read.is_some());
         if sees_any && views.iter().zip(&needs.views).all(holds) {
@@ -89,6 +91,9 @@ pub(crate) fn find_gaps(
                 None => (targets[found.target].name.clone(), frames.clone(), found),
                 Some((name, of, all)) => (name, [of, frames.clone()].concat(), all.union(found)),
             });
+        }
+        if progress.advance((place + 1) as f64 / shots.len() as f64).is_break() {
+            return Err(ConvertError::Stopped { done: 0, frames: None });
         }
     }
     let mut gaps = Vec::new();

@@ -24,6 +24,6 @@ pub(crate) use memory_needs::{
 };
 #[cfg(fuzzing)]
 pub use origin::compared_origins;
-pub(crate) use origin::{DAMAGED_ORIGIN, is_damaged, settings_of};
+pub(crate) use origin::{DAMAGED_ORIGIN, damage_of, is_damaged, settings_of};
 pub(crate) use outputs::{FrameOutputs, Outputs, Space, compressed, files_read};
 pub(crate) use queue_depth::{FrameMemory, QueueDepth};

@@ -14,7 +14,7 @@ use xxhash_rust::xxh3::xxh3_64;
 use crate::diagnostic::Result;
 use crate::job::ConvertJob;
 use crate::settings::Conversion;
-use crate::source::video::FrameName;
+use crate::source::video::{FrameDamage, FrameName};
 use crate::source::{Files, ViewFiles};
 use crate::target::time;
 
@@ -69,7 +69,8 @@ impl Origin {
         }
     }
 
-    /// Returns the origin of a frame, in words; `None` for a picture that is no frame.
+    /// Returns the origin of a frame, in words; `None` for a picture that is no frame. Damage of a film is in them once the film's frame was
+    /// decoded.
     ///
     /// # Errors
     /// When a view cannot be posed so.
@@ -101,7 +102,8 @@ impl Origin {
         let named: Vec<_> = self.named.iter().map(|path| still.known(path).flatten()).collect();
         let read = (job.layers().map(read_by).collect::<Vec<_>>(), named);
         let (pose, input) = (digest(&poses), digest(&(formulas, read)));
-        Ok(Some(checked(format!("{}{POSE}{pose:08x}, input {input:08x}", self.shared))))
+        let damage = worst_damage(job, place).map_or_else(String::new, |damage| format!("{DAMAGE}{}", name(damage)));
+        Ok(Some(checked(format!("{}{POSE}{pose:08x}, input {input:08x}{damage}", self.shared))))
     }
 }
 
@@ -131,10 +133,30 @@ impl Samples {
     }
 }
 
+/// Returns the worst of what is the matter with the frames of films of which a frame was made.
+fn worst_damage(job: &ConvertJob, place: usize) -> Option<FrameDamage> {
+    let of_layer = |layer: &ConvertJob| {
+        let videos = layer.files.videos()?;
+        let names = layer.input.paths(layer.input.frames[place]);
+        names.iter().filter_map(|path| videos.damage(&FrameName::parse(path)?)).max()
+    };
+    job.layers().filter_map(of_layer).max()
+}
+
+fn name(damage: FrameDamage) -> &'static str {
+    match damage {
+        FrameDamage::Traces => "traces",
+        FrameDamage::Held => "held",
+    }
+}
+
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// Beginning of the part of an origin that is each frame's own.
 const POSE: &str = ", pose ";
+
+/// Beginning of the word for damage of an input.
+const DAMAGE: &str = ", damage ";
 
 /// Beginning of the digest of the words before it. Of most formats, texts have no checksum: a flipped bit would look like other
 /// settings.
@@ -169,12 +191,18 @@ pub(crate) fn settings_of(origin: &str) -> Option<&str> {
     Some(origin.split_once(POSE)?.0)
 }
 
+/// Returns what an origin says of damaged inputs; `None` if they were whole.
+pub(crate) fn damage_of(origin: &str) -> Option<FrameDamage> {
+    let word = origin.split_once(DAMAGE)?.1.split(',').next()?;
+    [FrameDamage::Traces, FrameDamage::Held].into_iter().find(|damage| name(*damage) == word)
+}
+
 /// Returns whether two origins are of one version of the program; others may compute alike.
 pub(crate) fn are_of_one_version(found: &str, expected: &str) -> bool {
     found.split(", ").next() == expected.split(", ").next()
 }
 
-/// Returns the names of the parts in which two origins differ; none if they are of different versions of the program.
+/// Returns the names of the parts in which two origins differ, but for damage of inputs; none if they are of different versions of the program.
 pub(crate) fn differences(found: &str, expected: &str) -> Vec<String> {
     if !are_of_one_version(found, expected) {
         return Vec::new();
@@ -182,7 +210,7 @@ pub(crate) fn differences(found: &str, expected: &str) -> Vec<String> {
     let (found, expected): (Vec<&str>, Vec<&str>) = (found.split(", ").collect(), expected.split(", ").collect());
     let differ = expected.iter().filter(|part| !found.contains(part));
     let names = differ.filter_map(|part| Some(part.split_once(' ')?.0));
-    names.filter(|name| *name != "check").map(str::to_owned).collect()
+    names.filter(|name| !["check", "damage"].contains(name)).map(str::to_owned).collect()
 }
 
 /// Returns whether the first of two origins is damaged, the names of the parts in which they differ, and the first one's settings: fuzzing compares them without a conversion.
@@ -241,6 +269,18 @@ mod tests {
         assert_eq!(differences("0.1.0", one), ["geometry", "filter", "colour", "pose", "input"]);
         assert_eq!(differences(&other.replace("0.1.0", "0.2.0"), one), Vec::<String>::new());
         assert_eq!((settings_of(one), settings_of("")), (Some("0.1.0, geometry 1, filter 2, colour 3"), None));
+    }
+
+    #[test]
+    fn damage_is_no_setting() {
+        let whole = "0.1.0, geometry 1, filter 2, colour 3, pose 5, input 4";
+        for damage in [FrameDamage::Traces, FrameDamage::Held] {
+            let damaged = checked(format!("{whole}{DAMAGE}{}", name(damage)));
+            assert_eq!((damage_of(&damaged), damage_of(&checked(whole.to_owned()))), (Some(damage), None));
+            assert_eq!(differences(&damaged, whole), Vec::<String>::new());
+            assert_eq!(differences(whole, &damaged), Vec::<String>::new());
+        }
+        assert!(FrameDamage::Held > FrameDamage::Traces);
     }
 
     #[test]

@@ -5,11 +5,11 @@ use rayon::prelude::*;
 
 use crate::colour::{LayerPlan, Light};
 use crate::diagnostic::{
-    Code, ConvertError, Diagnostic, FRAMES, MEMORY, OVERWRITE, RESUME, Result, failed_as, failure,
+    Code, ConvertError, DAMAGED, Diagnostic, FRAMES, MEMORY, OVERWRITE, RESUME, Result, failed_as, failure,
 };
-use crate::job::origin::{DAMAGED_ORIGIN, are_of_one_version, differences, is_damaged};
+use crate::job::origin::{DAMAGED_ORIGIN, are_of_one_version, damage_of, differences, is_damaged};
 use crate::job::{ConvertJob, FrameOutputs};
-use crate::source::video::FrameName;
+use crate::source::video::{DamagedFrames, FrameName, Videos};
 use crate::source::{MemoryBudget, Stamp};
 use crate::target::{Movement, TargetFile};
 
@@ -66,6 +66,8 @@ struct Expected<'a> {
     layers: &'a LayerPlan,
     /// Words about how the frame is made.
     origin: Option<&'a str>,
+    /// Answer to damaged frames of films.
+    damaged: DamagedFrames,
     memory: MemoryBudget,
 }
 
@@ -107,6 +109,7 @@ impl Resumed {
                 light,
                 layers,
                 origin: origin.as_deref(),
+                damaged: job.files.videos().map_or_else(DamagedFrames::default, Videos::answer),
                 memory: job.memory,
             };
             match Found::at(&path, expected) {
@@ -216,9 +219,12 @@ impl Found {
 
     /// Returns the parts in which a picture was made otherwise, by what its file says. One that says nothing may be of another
     /// program, or of a format that has no room for it: it is judged by its size and samples.
-    fn made_otherwise(metadata: &Metadata, Expected { origin, .. }: Expected<'_>) -> Option<Vec<String>> {
-        let parts = metadata.origin.as_deref().zip(origin).map(|(found, expected)| differences(found, expected));
-        parts.filter(|parts| !parts.is_empty())
+    fn made_otherwise(metadata: &Metadata, Expected { origin, damaged, .. }: Expected<'_>) -> Option<Vec<String>> {
+        let found = metadata.origin.as_deref()?;
+        let mut parts = differences(found, origin?);
+        let is_refused = parts.is_empty() && damage_of(found).is_some_and(|damage| !damaged.accepts(damage));
+        parts.extend(is_refused.then(|| "damage".to_owned()));
+        (!parts.is_empty()).then_some(parts)
     }
 
     /// Returns whether a picture's file says how it was made, in words that can be compared.
@@ -254,11 +260,12 @@ fn newer_input(job: &ConvertJob, frame: Option<u64>, output: &Path) -> Option<Pa
 fn otherwise(all: &[Otherwise], is_turn: bool) -> Option<ConvertError> {
     let Otherwise { path, parts, .. } = all.first()?;
     let told = parts.iter().map(|part| match part.as_str() {
-        "geometry" => "geometry (projections, size or orientation)",
-        "pose" => "poses (orientation, path, turn or shutter)",
-        "filter" => "filter settings",
-        "colour" => "colours, samples or layers",
-        _ => "inputs",
+        "geometry" => "geometry (projections, size or orientation)".to_owned(),
+        "pose" => "poses (orientation, path, turn or shutter)".to_owned(),
+        "filter" => "filter settings".to_owned(),
+        "colour" => "colours, samples or layers".to_owned(),
+        "damage" => format!("answers to damaged frames ({DAMAGED})"),
+        _ => "inputs".to_owned(),
     });
     let told = told.collect::<Vec<_>>().join("; other ");
     let frames = FrameList::new(all.iter().filter_map(|one| one.frame)).to_string();

@@ -3,8 +3,11 @@
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use cosmorama_convert::{Code, Conversion, ConvertError, Existing, Observer, Quiet, Report, Result, Stop, Work};
-use cosmorama_io::{Limits, read};
+use cosmorama::motion::{Easing, Ramp};
+use cosmorama_convert::{
+    CameraMovement, Code, Conversion, ConvertError, Existing, Observer, Quiet, Report, Result, Stop, Work,
+};
+use cosmorama_io::{FrameList, Limits, read};
 
 const FRAMES: usize = 32;
 
@@ -92,7 +95,7 @@ fn after_the_last_frame_there_is_nothing_to_stop() {
     make_skies(folder.path());
     let (result, told) = stopped(domes(folder.path()), FRAMES);
     assert_eq!((result.unwrap().frames, told.len()), (FRAMES, FRAMES));
-    let still = domes(folder.path()).frames(cosmorama_io::FrameList::new([5])).existing(Existing::Replace);
+    let still = domes(folder.path()).frames(FrameList::new([5])).existing(Existing::Replace);
     assert_eq!(stopped(still, 1).0.unwrap().frames, 1);
 }
 
@@ -192,4 +195,27 @@ fn a_sequence_that_is_stopped_within_a_frame_finishes_those_before_it() {
         );
         assert_eq!((observer.1.len(), whole_domes(folder).len()), (done, done), "{work:?}");
     }
+}
+
+#[test]
+fn the_frames_of_a_path_are_looked_at_under_an_observer_who_may_stop_that() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let faces = Conversion::new("builtin:demo", path("{face}.png")).to("cube".parse().unwrap());
+    faces.size("32".parse().unwrap()).check().result.unwrap().run(&mut Quiet).unwrap();
+    let angles = [90.0, 0.0, 0.0].map(|to| Ramp { from: 0.0, to });
+    let turn = CameraMovement::Turn { angles, fov: None, easing: Easing::default() };
+    let domes = Conversion::new(path("{face}.png"), path("dome_##.png")).to("fulldome".parse().unwrap()).moved(turn);
+    let domes = domes.size("64".parse().unwrap()).frames(FrameList::new(1..=10));
+    let mut told = Bands::stopping_at(2.0);
+    let checked = domes.clone().check_watched(&mut told);
+    assert_eq!(checked.result.unwrap().run(&mut Quiet).unwrap().frames, 10);
+    assert!(told.told.iter().all(|(work, _)| *work == Work::Path));
+    let fractions: Vec<f64> = told.told.iter().map(|(_, fraction)| *fraction).collect();
+    assert!(
+        fractions.is_sorted() && fractions.first() == Some(&0.0) && fractions.last() == Some(&1.0),
+        "{fractions:?}"
+    );
+    let error = domes.existing(Existing::Replace).check_watched(&mut Bands::stopping_at(0.3)).result.err().unwrap();
+    assert_eq!(error.code(), Code::Stopped, "{error}");
 }

@@ -14,6 +14,7 @@ use cosmorama::raster::EncodedImage;
 
 pub use pair::{HalfPlace, PairedReader, SecondHalf};
 pub use reader::VideoReader;
+pub use traces::CodedOrder;
 
 /// Choices for reading a video.
 #[derive(Clone, Debug)]

@@ -131,6 +131,11 @@ impl PairedReader {
         self.first.faults().iter().chain(self.second.faults())
     }
 
+    /// Returns the frames of which the decoders last said something; see [`VideoReader::suspect`].
+    pub fn suspects(&self) -> impl Iterator<Item = u64> {
+        self.first.suspect().into_iter().chain(self.second.suspect())
+    }
+
     /// Returns damaged frames of either stream before the first that is asked for; see [`VideoReader::faults_before`].
     pub fn faults_before(&self) -> impl Iterator<Item = &Fault> {
         self.first.faults_before().iter().chain(self.second.faults_before())

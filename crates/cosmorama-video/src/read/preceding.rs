@@ -1,7 +1,7 @@
 //! Damage before the first frame that is asked for, and at the end of those that are.
 
 use super::reader::MARGIN;
-use super::{Damaged, Fault, ReadOptions, VideoReader};
+use super::{CodedOrder, Damaged, Fault, ReadOptions, VideoReader};
 use crate::probe::CodedFrame;
 use crate::{Ffmpeg, Timeline, VideoError, VideoInfo};
 
@@ -78,7 +78,7 @@ impl Damage {
     }
 
     /// Returns the damage before a frame, if a frame that is looked at may show traces of it.
-    pub(super) fn before(&self, frame: u64, looked: Looked) -> Option<Before> {
+    pub(super) fn before(self, frame: u64, looked: Looked) -> Option<Before> {
         let Looked { info, timeline, options, .. } = looked;
         let part = |fault: &Fault| Fault { count: fault.count.min(frame - fault.frame), ..fault.clone() };
         let faults: Vec<Fault> = self.faults.iter().filter(|fault| fault.frame < frame).map(part).collect();
@@ -86,7 +86,7 @@ impl Damage {
         let all = if self.coded.is_empty() && !faults.is_empty() {
             vec![frame]
         } else {
-            info.traced(&self.coded, timeline, &damaged)
+            CodedOrder::new(self.coded, timeline.clone(), info).traces(&damaged)
         };
         let traced = all.into_iter().find(|traced| *traced >= frame && options.looks_at(*traced))?;
         Some(Before { faults, traced })

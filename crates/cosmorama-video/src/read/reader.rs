@@ -152,6 +152,11 @@ impl VideoReader {
         &self.before
     }
 
+    /// Returns the frame of which the decoder last said something, until it shows which frame is damaged.
+    pub fn suspect(&self) -> Option<u64> {
+        self.complaint.as_ref().map(|complaint| complaint.frame)
+    }
+
     /// Returns the times of the frames.
     pub fn timeline(&self) -> &Timeline {
         &self.timeline
@@ -249,6 +254,7 @@ impl VideoReader {
     fn look_before(&mut self) -> Result<u64, VideoError> {
         let first = self.expected;
         let damage = self.looked().damage((first, first))?;
+        let from = damage.start;
         self.own = damage.of(first).cloned();
         if let Some(Before { faults, traced }) = damage.before(first, self.looked()) {
             if let (Damaged::Error, Some(Fault { frame, reason, .. })) = (self.options.damaged, faults.first()) {
@@ -256,7 +262,7 @@ impl VideoReader {
             }
             self.before = faults;
         }
-        Ok(damage.start)
+        Ok(from)
     }
 
     fn looked(&self) -> Looked<'_> {

@@ -4,36 +4,50 @@ use std::ops::Range;
 use crate::probe::{CodedFrame, shown_times};
 use crate::{Ffmpeg, Timeline, VideoError, VideoInfo};
 
+/// Frames of a video in the order in which they are coded, by which damage of one reaches others.
+#[derive(Clone, Debug)]
+pub struct CodedOrder {
+    frames: Vec<CodedFrame>,
+    timeline: Timeline,
+    /// Whether decoders hold a frame back, which they lose when the next one is damaged; that one they paint over and give.
+    is_held_back: bool,
+}
+
 impl Ffmpeg {
-    /// Returns the numbers of frames that may show traces of damaged ones: those that are decoded after them, up to the next key frame,
-    /// of which decoders say nothing. `None` where the file does not tell the times of its frames. This reads the whole file, without
-    /// decoding it.
+    /// Reads the order in which a video's frames are coded, from the whole file without decoding it; `None` where the file does not tell
+    /// the times of its frames.
     ///
     /// # Errors
     /// When the file cannot be read.
-    pub fn traces(&self, info: &VideoInfo, damaged: &[Range<u64>]) -> Result<Option<Vec<u64>>, VideoError> {
-        let coded = self.coded_frames(&info.path, info.stream, &[])?;
+    pub fn coded_order(&self, info: &VideoInfo) -> Result<Option<CodedOrder>, VideoError> {
+        let frames = self.coded_frames(&info.path, info.stream, &[])?;
         let timeline = if info.is_variable {
-            Timeline::Listed { times: shown_times(&coded), time_base: info.time_base }
+            Timeline::Listed { times: shown_times(&frames), time_base: info.time_base }
         } else {
             self.timeline(info)?
         };
-        Ok((!coded.is_empty()).then(|| info.traced(&coded, &timeline, damaged)))
+        Ok((!frames.is_empty()).then(|| CodedOrder::new(frames, timeline, info)))
     }
 }
 
-impl VideoInfo {
-    /// Returns the frames, of these coded ones, that may show traces of damaged ones. Decoders of MPEG hold a frame back, which they lose when
-    /// the next one is damaged; that one they paint over and give, so that it counts, too.
-    pub(super) fn traced(&self, coded: &[CodedFrame], timeline: &Timeline, damaged: &[Range<u64>]) -> Vec<u64> {
-        if !["mpeg1video", "mpeg2video", "mpeg4"].contains(&self.codec.as_str()) {
-            return traces(coded, timeline, damaged);
+impl CodedOrder {
+    pub(super) fn new(frames: Vec<CodedFrame>, timeline: Timeline, info: &VideoInfo) -> Self {
+        let is_held_back = ["mpeg1video", "mpeg2video", "mpeg4"].contains(&info.codec.as_str());
+        Self { frames, timeline, is_held_back }
+    }
+
+    /// Returns the numbers of frames that may show traces of damaged ones: those that are decoded after them, up to the next key frame,
+    /// of which decoders say nothing. A damaged frame that a decoder painted over in the place of one that it lost counts, too.
+    pub fn traces(&self, damaged: &[Range<u64>]) -> Vec<u64> {
+        let Self { frames, timeline, is_held_back } = self;
+        if !is_held_back {
+            return traces(frames, timeline, damaged);
         }
-        let meant: Vec<_> = damaged.iter().map(|frames| frames.start..frames.end + 1).collect();
-        let painted = shown_times(coded).into_iter().map(|time| timeline.frame(time));
-        let painted = painted.filter(|frame| damaged.iter().any(|frames| frames.end == *frame));
-        let mut found: BTreeSet<u64> = traces(coded, timeline, &meant).into_iter().chain(painted).collect();
-        found.retain(|frame| damaged.iter().all(|frames| !frames.contains(frame)));
+        let meant: Vec<_> = damaged.iter().map(|range| range.start..range.end + 1).collect();
+        let painted = shown_times(frames).into_iter().map(|time| timeline.frame(time));
+        let painted = painted.filter(|frame| damaged.iter().any(|range| range.end == *frame));
+        let mut found: BTreeSet<u64> = traces(frames, timeline, &meant).into_iter().chain(painted).collect();
+        found.retain(|frame| damaged.iter().all(|range| !range.contains(frame)));
         found.into_iter().collect()
     }
 }

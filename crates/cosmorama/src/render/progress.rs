@@ -37,6 +37,14 @@ pub struct Share<'a> {
     pub to: f64,
 }
 
+impl<'a> Share<'a> {
+    /// Returns the share of the task at a place among so many that take equally long.
+    pub fn of(whole: &'a dyn Progress, (place, count): (usize, usize)) -> Self {
+        let at = |place: usize| place as f64 / count.max(1) as f64;
+        Self { whole, from: at(place), to: at(place + 1) }
+    }
+}
+
 impl Progress for Share<'_> {
     fn advance(&self, fraction: f64) -> ControlFlow<()> {
         self.whole.advance(between(self.from, self.to, fraction))

@@ -14,8 +14,9 @@ use cosmorama_convert::{Explanation, ExplanationSettings, PathExplanation, Pictu
 use cosmorama_io::pending::Hidden;
 use serde_json::{Value, json};
 
+use super::convert::Watch;
 use super::make_folder;
-use crate::args::ExplainArgs;
+use crate::args::{ExplainArgs, ProgressStyle};
 use crate::console::Console;
 use crate::diagram;
 use crate::failure::usage;
@@ -47,7 +48,9 @@ pub(super) fn run(mut args: ExplainArgs, console: &mut Console) -> Result<ExitCo
     }
     let worlds = explanation.worlds()?;
     let _folders = output.as_deref().map(|folder| make_folder(folder, console)).transpose()?;
-    let path = explanation.path(&worlds)?;
+    let mut watch = Watch::new(console, ProgressStyle::Auto);
+    let path = explanation.path(&worlds, &mut watch)?;
+    watch.finish();
     let (mut text, mut reports, mut drawn, mut found) = (String::new(), Vec::new(), Vec::new(), Vec::new());
     let mut needed = HashSet::new();
     for picture in explanation.pictures() {

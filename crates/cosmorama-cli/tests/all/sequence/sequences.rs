@@ -414,7 +414,32 @@ fn an_answer_to_damaged_frames_of_pictures_is_told_to_be_idle() {
     let args = ["convert", "sky.png", "o.png", "--from", "equirect", "--to", "fulldome", "--size", "16", "--damaged"];
     let held = bench.run(&[&args[..], &["hold"]].concat());
     assert!(held.status.success());
-    assert_says(&text(&held.stderr), &["warning: --damaged has no effect: no input is a video"]);
+    assert_says(&text(&held.stderr), &["warning: --damaged has no effect: no input is a film; a damaged picture"]);
     let default = bench.run(&[&args[..], &["error", "-y"]].concat());
     assert!(default.status.success() && !text(&default.stderr).contains("--damaged"), "{}", text(&default.stderr));
+    // Nor does a stream of pictures.
+    bench.succeed(&["convert", "sky.png", "sky.y4m", "--from", "equirect", "--to", "equirect", "--size", "32"]);
+    let stream = ["convert", "sky.y4m", "o_#.png", "--from", "equirect", "--to", "fulldome", "--size", "16"];
+    let skipped = bench.run(&[&stream[..], &["--damaged", "skip"]].concat());
+    assert!(skipped.status.success(), "{}", text(&skipped.stderr));
+    assert_says(&text(&skipped.stderr), &["--damaged has no effect", "a stream of pictures that is cut"]);
+}
+
+/// Frames that are to be made yet have a cost, too, but are not taken for those that are there.
+#[test]
+fn explain_tells_of_frames_that_do_not_exist() {
+    let bench = Bench::new();
+    (1..=3).for_each(|frame| bench.save(&format!("sky_{frame}.png"), &picture(frame, 32, 16)));
+    let explained = |frames: &str| {
+        let args =
+            ["explain", "sky_#.png", "--from", "equirect", "--to", "fulldome", "--size", "16", "--frames", frames];
+        let told = bench.run(&args);
+        assert!(told.status.success(), "{}", text(&told.stderr));
+        (text(&told.stdout), text(&told.stderr))
+    };
+    let (costs, told) = explained("2-9");
+    assert_says(&costs, &["8 frames: about"]);
+    assert_says(&told, &["note: sky_#.png: 6 frames are missing: 4-9; the first that exists is 1, the last 3"]);
+    let (_, told) = explained("1-3");
+    assert!(!told.contains("missing"), "{told}");
 }

@@ -265,6 +265,19 @@ fn no_cut_of_a_film_passes_for_a_short_film() {
     }
 }
 
+/// Makes a film of 30 frames, every tenth a key frame, of which frame 13 is damaged.
+fn damaged_film(bench: &Bench) {
+    let source = "testsrc2=size=256x128:rate=25,trim=end_frame=30";
+    ffmpeg(bench, &["-f", "lavfi", "-i", source, "-c:v", "libx264", "-bf", "0", "-g", "10", "film.mp4"]);
+    let told = said(bench, "film.mp4", "v", "packet=pos,size");
+    let of =
+        |name: &str| told.lines().filter_map(|line| line.strip_prefix(name)?.parse::<usize>().ok()).nth(13).unwrap();
+    let (place, size) = (of("pos="), of("size="));
+    let mut bytes = std::fs::read(bench.path("film.mp4")).unwrap();
+    bytes[place + 8..place + size].fill(0x5a);
+    std::fs::write(bench.path("film.mp4"), bytes).unwrap();
+}
+
 /// Frames that take after a damaged one are not right either, though no decoder says so.
 #[test]
 fn frames_are_doubted_from_damage_to_the_next_key_frame() {
@@ -272,15 +285,7 @@ fn frames_are_doubted_from_damage_to_the_next_key_frame() {
         return;
     }
     let bench = Bench::new();
-    let source = "testsrc2=size=256x128:rate=25,trim=end_frame=30";
-    ffmpeg(&bench, &["-f", "lavfi", "-i", source, "-c:v", "libx264", "-bf", "0", "-g", "10", "film.mp4"]);
-    let told = said(&bench, "film.mp4", "v", "packet=pos,size");
-    let of =
-        |name: &str| told.lines().filter_map(|line| line.strip_prefix(name)?.parse::<usize>().ok()).nth(13).unwrap();
-    let (place, size) = (of("pos="), of("size="));
-    let mut bytes = std::fs::read(bench.path("film.mp4")).unwrap();
-    bytes[place + 8..place + size].fill(0x5a);
-    std::fs::write(bench.path("film.mp4"), bytes).unwrap();
+    damaged_film(&bench);
     let report: Value = serde_json::from_slice(&bench.run(&["verify", "film.mp4", "--json"]).stdout).unwrap();
     assert_eq!((&report["frames_with_faults"], &report["whole"]), (&json!("13-19"), &json!(23)), "{report}");
     let args = ["convert", "film.mp4", "f_##.png", "--from", "equirect", "--to", "fulldome", "--size", "16"];
@@ -306,11 +311,47 @@ fn frames_are_doubted_from_damage_to_the_next_key_frame() {
     // A frame that is left out is no reason to fail, if it is the only one that is lacking.
     let skip = [&args[..], &["-y", "--frames", "10-15", "--damaged", "skip"]].concat();
     assert!(bench.run(&skip).status.success());
+    std::fs::remove_file(bench.path("f_13.png")).unwrap();
     let resume = [&args[..], &["--resume", "--frames", "10-15", "--damaged", "skip"]].concat();
     let again = bench.run(&resume);
     assert!(again.status.success(), "{}", text(&again.stderr));
     let whole = bench.run(&[&args[..], &["-y", "--frames", "20-25"]].concat());
     assert!(whole.status.success() && !text(&whole.stderr).contains("damaged"), "{}", text(&whole.stderr));
+}
+
+#[test]
+fn frames_that_damage_has_reached_are_kept_by_who_accepts_them_alone() {
+    if !has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    damaged_film(&bench);
+    // Each format tells it in a place of its own.
+    for name in ["f_##.png", "f_##.exr", "f_##.tif", "f_##.jpg", "f_##.hdr"] {
+        let args = ["convert", "film.mp4", name, "--from", "equirect", "--to", "fulldome", "--size", "16"];
+        let resumed = |answer: &[&'static str]| [&args[..], &["--resume"], answer].concat();
+        bench.succeed(&[&args[..], &["--damaged", "hold"]].concat());
+        bench.succeed(&[&args[..], &["-y", "--frames", "20-25"]].concat());
+        let report: Value = serde_json::from_slice(&bench.run(&["verify", name, "--json"]).stdout).unwrap();
+        assert_eq!(report["frames_with_faults"], "13-19", "{report}");
+        let of = |fault: &str| {
+            let all = report["faults"].as_array().unwrap().iter().filter(|found| found["fault"] == fault);
+            all.map(|found| found["frame"].as_u64().unwrap()).collect::<Vec<_>>()
+        };
+        assert_eq!((of("held"), of("traces")), (vec![13], (14..20).collect()), "{report}");
+        let kept = bench.run(&resumed(&["--damaged", "hold"]));
+        assert!(kept.status.success(), "{}", text(&kept.stderr));
+        assert_says(&text(&kept.stderr), &["30"]);
+        let refused = bench.fail(1, &resumed(&[]));
+        assert_says(&refused, &["_13.", "answers to damaged frames (--damaged), and 6 more were", "--frames 13-19"]);
+        let refused = bench.fail(1, &resumed(&["--damaged", "skip"]));
+        assert_says(&refused, &["_13.", "was made with other answers to damaged frames (--damaged);"]);
+        // Without what is to be kept, the film's damage is told as ever.
+        (13..20).for_each(|frame| std::fs::remove_file(bench.path(&name.replace("##", &frame.to_string()))).unwrap());
+        assert_says(&bench.fail(1, &resumed(&[])), &["frame 13 is damaged"]);
+        let held = bench.run(&resumed(&["--damaged", "hold"]));
+        assert!(held.status.success(), "{}", text(&held.stderr));
+    }
 }
 
 #[test]

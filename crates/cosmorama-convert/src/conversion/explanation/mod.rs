@@ -11,12 +11,16 @@ use std::sync::Arc;
 use cosmorama::camera::View;
 use cosmorama::explain;
 use cosmorama::filter::FilterSettings;
+use cosmorama::render::{Progress, Share};
 use cosmorama::world::World;
 use cosmorama_io::{Choice, FrameList};
 use cosmorama_spec::Size;
 use rayon::ThreadPool;
 
+use super::advance::watched;
 use super::check::threads;
+use super::run::stopped;
+use super::{Observer, Work};
 use crate::diagnostic::{Code, Diagnostic, FROM, NEAREST, Outcome, Result, TO, TRAVEL, usage, usage_as};
 use crate::input::spec_files::st_map::settled;
 use crate::input::{Builtin, Input, InputView};
@@ -26,7 +30,7 @@ use crate::job::gaps::{Shot, find_gaps};
 use crate::job::options::filter;
 use crate::settings::{GeometrySettings, LimitSettings};
 use crate::source::video::DamagedFrames;
-use crate::source::{Access, ChosenFiles, DecodedPicture, Disk, Files, MemoryBudget, Name};
+use crate::source::{Access, ChosenFiles, DecodedPicture, Disk, Files, MemoryBudget, Name, wanted_frames};
 use crate::target::{Movement, Picture, TargetView, aspect, time};
 
 /// Settings of an explanation, possibly for an input that does not exist yet.
@@ -129,11 +133,20 @@ impl ExplanationSettings {
         let (mut input, mut pictures) = self.find(geometry, access, warnings)?;
         let movement = self.moved(geometry, (&mut input, &mut pictures), access, warnings)?;
         warnings.extend(input.diagnostics());
+        warnings.extend(self.missing_frames(&input, access));
         warnings.extend(pictures.first().and_then(|picture| aspect::warning(geometry, &picture.view)));
         input.fit_eyes(pictures.iter().any(|picture| picture.eye.is_some()), warnings);
         input.narrow_to_files();
         let filter = filter(&self.geometry, warnings);
         Ok((input, pictures, movement, filter))
+    }
+
+    /// Returns a note about frames that are asked for and do not exist. They may be made yet, so their cost is told, too.
+    fn missing_frames(&self, input: &Input, access: Access) -> Option<Diagnostic> {
+        let asked = self.frames.as_ref()?;
+        let mut files = input.present().map(|(view, ..)| &view.files);
+        let missing = files.find_map(|files| wanted_frames::find(files, access.files, Some(asked)).err())?;
+        Some(Diagnostic::note(Code::NotFound, missing.message()))
     }
 
     /// Resolves the movement of the camera, and turns the pictures to its first frame.
@@ -235,11 +248,11 @@ impl Explanation {
         self.movement.is_some()
     }
 
-    /// Explains the path of a moving camera; `None` where it stands still.
+    /// Explains the path of a moving camera, while an observer is told how far that is; `None` where it stands still.
     ///
     /// # Errors
-    /// When its field of view goes beyond what the projection can show.
-    pub fn path(&self, worlds: &[World]) -> Result<Option<PathExplanation>> {
+    /// When its field of view goes beyond what the projection can show; [`ConvertError::Stopped`] if the observer ends it.
+    pub fn path(&self, worlds: &[World], observer: &mut dyn Observer) -> Result<Option<PathExplanation>> {
         let Some((movement, targets)) = &self.movement else { return Ok(None) };
         let numbers: Vec<u64> = self.input.frames.iter().copied().flatten().collect();
         // Of two eyes, the left one's.
@@ -250,7 +263,7 @@ impl Explanation {
         };
         let views: Vec<Vec<View>> = numbers.iter().map(views_of).collect::<Result<_>>()?;
         let report = self.pool.install(|| explain::PathReport::of(&worlds[0], &views));
-        let gaps = if self.has_input { self.gaps(worlds, (movement, targets))? } else { Vec::new() };
+        let gaps = if self.has_input { self.gaps(worlds, (movement, targets), observer)? } else { Vec::new() };
         Ok(Some(PathExplanation { frames: FrameList::new(numbers), report, gaps, views }))
     }
 
@@ -274,19 +287,28 @@ impl Explanation {
     }
 
     /// Finds what the input lacks for the frames of a moving camera.
-    fn gaps(&self, worlds: &[World], (movement, targets): (&Movement, &[TargetView])) -> Result<Vec<String>> {
+    fn gaps(
+        &self,
+        worlds: &[World],
+        (movement, targets): (&Movement, &[TargetView]),
+        observer: &mut dyn Observer,
+    ) -> Result<Vec<String>> {
         let shots = Shot::all(movement, targets, &self.input.frames)?;
-        let (mut gaps, count) = (Vec::new(), worlds.len());
-        for (index, (views, world)) in self.input.worlds.iter().zip(worlds).enumerate() {
-            let (mut views, mut warnings) = (views.clone(), Vec::new());
-            let find = || find_gaps(&mut views, (world, index, count), &shots, &self.filter, &mut warnings);
-            match self.pool.install(find) {
-                Ok(found) => gaps.extend(found),
-                Err(error) => gaps.push(error.message().to_string()),
+        let count = worlds.len();
+        let find = |progress: &dyn Progress| {
+            let mut gaps = Vec::new();
+            for (index, (views, world)) in self.input.worlds.iter().zip(worlds).enumerate() {
+                let (mut views, mut warnings) = (views.clone(), Vec::new());
+                let told = (&mut warnings, &Share::of(progress, (index, count)) as &dyn Progress);
+                match find_gaps(&mut views, (world, index, count), &shots, &self.filter, told) {
+                    Ok(found) => gaps.extend(found),
+                    Err(error) => gaps.push(error.message().to_string()),
+                }
+                gaps.extend(warnings.iter().map(ToString::to_string));
             }
-            gaps.extend(warnings.iter().map(ToString::to_string));
-        }
-        Ok(gaps)
+            gaps
+        };
+        watched(&self.pool, observer, Work::Path, find).ok_or_else(|| stopped((0, None)))
     }
 
     /// Returns the views that have no file yet.

@@ -11,7 +11,8 @@ use xxhash_rust::xxh3::xxh3_64;
 use super::sheet;
 use crate::colour::InputTransfer;
 use crate::diagnostic::Result;
-use crate::job::{DAMAGED_ORIGIN, is_damaged, settings_of};
+use crate::job::{DAMAGED_ORIGIN, damage_of, is_damaged, settings_of};
+use crate::source::video::FrameDamage;
 use crate::source::{Files, read};
 
 /// Summary of a frame that was read.
@@ -38,6 +39,8 @@ pub(super) struct Picture {
     pub(super) kind: String,
     /// Digests of the settings by which it was made, if its file tells them.
     pub(super) settings: Option<String>,
+    /// Damage of the film of which it was made, if its file tells of any.
+    pub(super) damage: Option<FrameDamage>,
     /// Hash of all samples.
     pub(super) hash: u64,
     /// Whether no sample of a colour differs from 0.
@@ -66,8 +69,13 @@ impl Frame {
             }
             Ok(file) => {
                 let transfer = InputTransfer::new(&TransferName::Auto, None).of(file.image.depth(), &file.metadata);
-                let settings = file.metadata.origin.as_deref().and_then(settings_of).map(str::to_owned);
-                Found::Picture(Picture { settings, ..Picture::of(&file.image, &file.image.to_light(&transfer), shows) })
+                let origin = file.metadata.origin.as_deref();
+                let (settings, damage) = (origin.and_then(settings_of).map(str::to_owned), origin.and_then(damage_of));
+                Found::Picture(Picture {
+                    settings,
+                    damage,
+                    ..Picture::of(&file.image, &file.image.to_light(&transfer), shows)
+                })
             }
             Err(IoError::Open { source, .. }) if source.kind() == ErrorKind::NotFound => Found::Nothing,
             Err(IoError::LeftOut { .. }) => Found::Damage("its decoder has no such frame".to_owned()),
@@ -103,6 +111,7 @@ impl Picture {
             size: (image.width(), image.height()),
             kind: format!("{}, depth {}", image.channels(), image.depth()),
             settings: None,
+            damage: None,
             hash: hash(image),
             is_black: light.pixels().par_iter().all(is_dark),
             cells: sheet::reduced(light, [CELLS; 2]).pixels().iter().map(sheet::codes).collect(),

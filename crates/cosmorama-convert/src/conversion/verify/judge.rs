@@ -3,6 +3,7 @@ use std::collections::BTreeMap;
 use cosmorama_spec::Size;
 
 use super::frame::{Found, Frame, Picture};
+use crate::source::video::FrameDamage;
 
 /// Faults of a frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,6 +32,10 @@ pub enum Fault {
     Kind(String),
     /// The file says that it was made by other settings than most, or says nothing where most do.
     Settings,
+    /// The file says that it was made of another frame of a film, in the place of a damaged one.
+    Held,
+    /// The file says that it was made of a frame of a film that takes after a damaged one, and may show traces of it.
+    Traces,
     /// No colour differs from black.
     Black,
     /// All samples equal those of the frame before.
@@ -48,6 +53,8 @@ impl Fault {
             Self::Size { .. } => "size",
             Self::Kind(_) => "kind",
             Self::Settings => "settings",
+            Self::Held => "held",
+            Self::Traces => "traces",
             Self::Black => "black",
             Self::Frozen => "frozen",
             Self::Flash => "flash",
@@ -122,6 +129,10 @@ fn of_picture(
         of_size.map(|expected| Fault::Size { found: picture.size, expected }),
         of_kind.map(|_| Fault::Kind(picture.kind.clone())),
         settings.differ_from(picture).then_some(Fault::Settings),
+        picture.damage.map(|damage| match damage {
+            FrameDamage::Held => Fault::Held,
+            FrameDamage::Traces => Fault::Traces,
+        }),
         picture.is_black.then_some(Fault::Black),
         is_frozen.then_some(Fault::Frozen),
         is_flash.then_some(Fault::Flash),
@@ -156,6 +167,7 @@ mod tests {
             size: (8, 4),
             kind: "RGB, depth 8".to_owned(),
             settings: None,
+            damage: None,
             hash: code.into(),
             is_black: code == 0,
             cells: vec![[code; 3]; CELLS * CELLS],
@@ -177,7 +189,9 @@ mod tests {
             (Picture { size: (9, 4), ..grey(21) }, Picture { kind: "RGB, depth 16".to_owned(), ..grey(22) });
         let pictures =
             [made_by("a", 20), None, Some(wide), Some(deep), Some(grey(23)), Some(grey(23)), made_by("a", 24)];
+        let hurt = |damage: FrameDamage, code: u8| Some(Picture { damage: Some(damage), ..grey(code) });
         let rest = [made_by("b", 25), Some(grey(0)), Some(grey(0)), Some(grey(26)), Some(grey(200)), Some(grey(27))];
+        let last = [hurt(FrameDamage::Traces, 28), hurt(FrameDamage::Held, 28)];
         let expected = [
             (2, vec!["missing"]),
             (3, vec!["size"]),
@@ -187,8 +201,10 @@ mod tests {
             (9, vec!["black"]),
             (10, vec!["black"]),
             (12, vec!["flash"]),
+            (14, vec!["traces"]),
+            (15, vec!["held", "frozen"]),
         ];
-        assert_eq!(judged(pictures.into_iter().chain(rest)), expected);
+        assert_eq!(judged(pictures.into_iter().chain(rest).chain(last)), expected);
     }
 
     #[test]

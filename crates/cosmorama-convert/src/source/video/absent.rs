@@ -9,7 +9,7 @@ use cosmorama_io::pending::Unfinished;
 use cosmorama_io::{Header, ImageFile, IoError, Limits};
 use cosmorama_spec::{FrameRate, Spec};
 
-use super::{Coming, DamagedFrames, FrameName, PictureSink, RawFiles, VideoPlan};
+use super::{Coming, DamagedFrames, FrameDamage, FrameName, PictureSink, RawFiles, VideoPlan};
 use crate::diagnostic::{Diagnostic, Result};
 
 /// Videos among the inputs: none.
@@ -47,6 +47,14 @@ impl Videos {
 
     pub(crate) fn coming(&self, name: &FrameName, _: bool) -> Result<Coming, IoError> {
         Err(refusal(&name.video))
+    }
+
+    pub(crate) fn answer(&self) -> DamagedFrames {
+        DamagedFrames::default()
+    }
+
+    pub(crate) fn damage(&self, _: &FrameName) -> Option<FrameDamage> {
+        None
     }
 
     pub(crate) fn rate(&self, video: &Path) -> Result<Option<FrameRate>, IoError> {

@@ -8,6 +8,8 @@ mod absent;
 #[cfg(feature = "video")]
 mod counted;
 #[cfg(feature = "video")]
+mod damage;
+#[cfg(feature = "video")]
 mod described;
 mod frame_name;
 #[cfg(feature = "video")]
@@ -33,7 +35,7 @@ pub(crate) use frame_name::FrameName;
 pub(crate) use made::MadeVideos;
 #[cfg(feature = "video")]
 pub use read::Videos;
-pub(crate) use settings::{Coming, RawBytes, RawFiles, RawKind, VideoPlan, VideoSource};
+pub(crate) use settings::{Coming, FrameDamage, RawBytes, RawFiles, RawKind, VideoPlan, VideoSource};
 pub use settings::{DamagedFrames, VideoSettings};
 pub use sink::PictureSink;
 

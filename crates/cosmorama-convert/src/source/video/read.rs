@@ -10,15 +10,16 @@ use cosmorama_io::pending::Unfinished;
 use cosmorama_io::{Header, ImageFile, IoError, Limits};
 use cosmorama_spec::{FrameRate, Spec};
 use cosmorama_video::{
-    CutShort, Damaged, Fault, Ffmpeg, PairedReader, ReadOptions, SecondHalf, Timeline, VideoError, VideoInfo,
-    VideoReader,
+    CodedOrder, CutShort, Damaged, Ffmpeg, FrameCondition, PairedReader, ReadOptions, SecondHalf, Timeline, VideoError,
+    VideoFrame, VideoInfo, VideoReader,
 };
 use thiserror::Error;
 
 use super::counted::count;
+use super::damage::{Damage, Faults, Told, may_lack, more_than, ranges};
 use super::live::Live;
 use super::raw::{RawInfo, RawReader, aside, foreign};
-use super::{Coming, DamagedFrames, FrameName, RawBytes, RawFiles, RawKind, described};
+use super::{Coming, DamagedFrames, FrameDamage, FrameName, RawBytes, RawFiles, RawKind, described};
 use crate::source::lock;
 
 /// Videos among the inputs of a conversion. Each is opened when it is first asked for.
@@ -43,6 +44,8 @@ struct Source {
     threads: usize,
     /// Number of frames; of a stream that is read as it comes, as many as there can be.
     count: u64,
+    /// Order in which the frames of its streams are coded, once it is needed; `None` where the file does not tell.
+    orders: OnceLock<Option<Vec<CodedOrder>>>,
     state: Mutex<State>,
 }
 
@@ -65,9 +68,6 @@ enum Decoder {
     Raw(RawReader),
 }
 
-/// First frames of faults, each with the number of frames and the reason.
-type Faults = BTreeMap<u64, (u64, String)>;
-
 /// Progress of a video's decoder.
 #[derive(Debug, Default)]
 struct State {
@@ -89,10 +89,8 @@ struct State {
     has_more: bool,
     /// Error after which there are no more frames.
     failure: Option<Shared>,
-    /// Faults of frames that are left out, or in place of which others are shown.
-    faults: Faults,
-    /// Damaged frames before those that were asked for, after which some of these take.
-    before: Faults,
+    /// Damage of which its decoders told.
+    damage: Damage,
 }
 
 /// Frames at most that are held before they are asked for. Threads ask for few frames out of order; those that are dropped are
@@ -137,6 +135,16 @@ impl Videos {
         let source = self.source(&name.video)?;
         let Content::Live { pictures, .. } = &source.content else { return Ok(Coming::Here) };
         Ok(lock(pictures).coming(name.frame, may_wait))
+    }
+
+    /// Returns the answer to damaged frames.
+    pub(crate) fn answer(&self) -> DamagedFrames {
+        self.damaged
+    }
+
+    /// Returns what is the matter with a frame that was decoded.
+    pub(crate) fn damage(&self, name: &FrameName) -> Option<FrameDamage> {
+        self.sources().get(&name.video)?.state().damage.of_frame(name.frame)
     }
 
     /// Returns the rate; `None` if it varies, or none is said.
@@ -219,16 +227,17 @@ impl Videos {
         state.close();
         let ranged = |(first, (count, reason)): (&u64, &(u64, String))| (*first..first + count, reason.clone());
         let announced = source.count;
+        let (faults, before) = (&state.damage.faults, &state.damage.before);
         let further = state.has_more.then(|| more_than(announced));
         // Frames that a cut file lacks may be counted by nobody.
-        let cut = source.cut().filter(|_| state.faults.is_empty()).map(|CutShort { expected, found }| {
+        let cut = source.cut().filter(|_| faults.is_empty()).map(|CutShort { expected, found }| {
             VideoError::Cut { path: video.to_owned(), expected, found, is_described: true }.to_string()
         });
         let further = further.or(cut);
         let behind = further.map(|reason| (announced..announced + 1, reason));
-        let (traced, reason) = source.traces(&state, &[&state.faults, &state.before]);
+        let (traced, reason) = source.traces(&state, &[faults, before]);
         let traced = traced.into_iter().map(|frames| (frames, reason.to_owned()));
-        Ok(state.faults.iter().map(ranged).chain(traced).chain(behind).collect())
+        Ok(faults.iter().map(ranged).chain(traced).chain(behind).collect())
     }
 
     /// Returns messages about frames that were damaged, and about frames that were not announced.
@@ -301,7 +310,17 @@ impl Source {
         }
         let content = Content::Film { ffmpeg, info: Box::new(info), half: half.map(Box::new) };
         let count = frames;
-        Ok(Self { name: video.to_owned(), content, header, damaged, threads, count, state: Mutex::default() })
+        Ok(Self::new(video, (content, header), (damaged, threads), count))
+    }
+
+    fn new(
+        video: &Path,
+        (content, header): (Content, Header),
+        (damaged, threads): (Damaged, usize),
+        count: u64,
+    ) -> Self {
+        let (orders, state) = (OnceLock::new(), Mutex::default());
+        Self { name: video.to_owned(), content, header, damaged, threads, count, orders, state }
     }
 
     /// Returns how a video's file is cut, if it is.
@@ -323,8 +342,7 @@ impl Source {
                 (info, content, u64::MAX)
             }
         };
-        let (damaged, threads) = (Damaged::Error, 0);
-        Ok(Self { name: video.to_owned(), content, header, damaged, threads, count, state: Mutex::default() })
+        Ok(Self::new(video, (content, header), (Damaged::Error, 0), count))
     }
 
     fn state(&self) -> MutexGuard<'_, State> {
@@ -371,10 +389,12 @@ impl Source {
         loop {
             let Some((reader, next)) = &mut state.reader else { return Err(self.without(number)) };
             let first = *next;
-            let Some((index, image)) = reader.next((&self.name, first), pool)? else {
+            let Some(VideoFrame { index, image, condition, .. }) = reader.next((&self.name, first), pool)? else {
                 return if self.damaged == Damaged::Skip { Ok(None) } else { Err(self.without(number)) };
             };
             *next = index + 1;
+            state.damage.note(reader.told());
+            state.damage.note_frame(index, condition == FrameCondition::Held, |damaged| self.traced(damaged));
             state.left_out.extend(first..index.min(self.count));
             if index == number {
                 if state.is_expected && state.wanted.is_empty() && number + 1 < self.count {
@@ -443,68 +463,46 @@ impl Source {
             vec![more_than(self.count)]
         } else {
             state.close();
-            let cut = self.cut().filter(|_| state.faults.is_empty() && self.damaged != Damaged::Error);
+            let cut = self.cut().filter(|_| state.damage.faults.is_empty() && self.damaged != Damaged::Error);
             let cut = cut.map(|cut| may_lack(cut, state.asked.len()));
-            [self.of_faults(&state), self.of_faults_before(&state), cut].into_iter().flatten().collect()
+            let (damage, count) = (&state.damage, |faults: &Faults| self.count_traces(&state, faults));
+            let of_faults = damage.complaint(self.damaged == Damaged::Skip, count);
+            [of_faults, damage.complaint_before(count), cut].into_iter().flatten().collect()
         };
         found.into_iter().map(|found| format!("{}: {found}", self.name.display())).collect()
     }
 
-    /// Tells of frames that were held or left out.
-    fn of_faults(&self, state: &State) -> Option<String> {
-        let (first, (_, reason)) = state.faults.first_key_value()?;
-        let count: u64 = state.faults.values().map(|(count, _)| count).sum();
-        let instead = if self.damaged == Damaged::Skip {
-            "left out, so that what follows comes earlier than its sound"
-        } else {
-            "replaced by the one before"
-        };
-        let further = match self.traced(state, &state.faults) {
-            0 => String::new(),
-            1 => "; 1 further frame may take after them, and show traces".to_owned(),
-            traced => format!("; {traced} further frames may take after them, and show traces"),
-        };
-        Some(format!(
-            "{count} {} damaged or missing, and {instead}; the first is frame {first} ({reason}){further}",
-            if count == 1 { "frame is" } else { "frames are" }
-        ))
-    }
-
-    /// Tells of frames that may take after one that was not asked for.
-    fn of_faults_before(&self, state: &State) -> Option<String> {
-        let (damaged, (_, reason)) = state.before.first_key_value()?;
-        let traced = self.traced(state, &state.before);
-        (traced > 0).then(|| {
-            let frames = if traced == 1 { "frame may" } else { "frames may" };
-            format!("{traced} {frames} take after frame {damaged}, which is damaged ({reason}) though it is not asked for, and show traces")
-        })
-    }
-
-    fn traced(&self, state: &State, faults: &Faults) -> u64 {
+    fn count_traces(&self, state: &State, faults: &Faults) -> u64 {
         self.traces(state, &[faults]).0.iter().map(|range| range.end - range.start).sum()
+    }
+
+    /// Returns the frames that may show traces of damaged ones; `None` where the file's own order cannot be read.
+    fn traced(&self, damaged: &[Range<u64>]) -> Option<BTreeSet<u64>> {
+        let Content::Film { ffmpeg, info, half } = &self.content else { return Some(BTreeSet::new()) };
+        let orders = self.orders.get_or_init(|| {
+            let streams = std::iter::once(&**info).chain(half.iter().map(|half| &half.info));
+            streams.map(|info| ffmpeg.coded_order(info).ok().flatten()).collect()
+        });
+        Some(orders.as_ref()?.iter().flat_map(|order| order.traces(damaged)).collect())
     }
 
     /// Returns the frames that may show traces of damaged ones, of those that were asked for, with the reason: all behind the first one
     /// where the file's own order cannot be read.
     fn traces(&self, state: &State, faults: &[&Faults]) -> (Vec<Range<u64>>, &'static str) {
-        let Content::Film { ffmpeg, info, half } = &self.content else { return (Vec::new(), TRACES) };
-        let faults = faults.iter().copied().flatten();
-        let damaged: Vec<_> = faults.map(|(first, (count, _))| *first..first + count).collect();
+        let damaged: Vec<_> = ranges(faults.iter().copied().flatten()).collect();
         let Some(first) = damaged.iter().min_by_key(|range| range.start) else { return (Vec::new(), TRACES) };
-        let streams = std::iter::once(&**info).chain(half.iter().map(|half| &half.info));
-        let traced = streams.map(|info| ffmpeg.traces(info, &damaged).ok().flatten()).collect::<Option<Vec<_>>>();
-        let (traced, reason): (BTreeSet<u64>, _) = match traced {
-            Some(streams) => (streams.into_iter().flatten().collect(), TRACES),
+        let (traced, reason) = match self.traced(&damaged) {
+            Some(traced) => (traced, TRACES),
             None => (state.asked.range(first.end..).copied().collect(), UNSURE),
         };
-        let mut ranges: Vec<Range<u64>> = Vec::new();
+        let mut found: Vec<Range<u64>> = Vec::new();
         for frame in traced.intersection(&state.asked).copied() {
-            match ranges.last_mut() {
+            match found.last_mut() {
                 Some(last) if last.end == frame => last.end += 1,
-                _ => ranges.push(frame..frame + 1),
+                _ => found.push(frame..frame + 1),
             }
         }
-        (ranges, reason)
+        (found, reason)
     }
 }
 
@@ -514,33 +512,35 @@ const TRACES: &str = "it takes after a damaged frame, and may show traces of it"
 /// Finding about a frame behind a damaged one, where it is not known which take after it.
 const UNSURE: &str = "a frame before it is damaged, and the file does not tell which take after that";
 
-/// Returns the complaint about frames that a cut file may lack, when so many were read.
-fn may_lack(CutShort { expected, found }: CutShort, read: usize) -> String {
-    format!(
-        "the file is cut, with {found} of at least {expected} bytes; there may have been more frames than the {read} that are read"
-    )
-}
-
-/// Returns the complaint about frames that were not announced.
-fn more_than(announced: u64) -> String {
-    format!(
-        "there are more frames than the {announced} that it announces; they are left out, so write it again by a program that counts them"
-    )
-}
-
 impl Decoder {
-    /// Returns the next frame with its number; `None` after the last. The number of a stream's is counted.
-    fn next(
-        &mut self,
-        (name, number): (&Path, u64),
-        pool: &FramePool,
-    ) -> Result<Option<(u64, EncodedImage)>, VideoError> {
+    /// Returns the next frame; `None` after the last. The number of a stream's is counted.
+    fn next(&mut self, (name, index): (&Path, u64), pool: &FramePool) -> Result<Option<VideoFrame>, VideoError> {
         let told = name.display().to_string();
-        Ok(match self {
-            Self::Film(reader) => aside(|| reader.next_frame_in(pool), &told)?.map(|frame| (frame.index, frame.image)),
-            Self::Pair(reader) => aside(|| reader.next_frame_in(pool), &told)?.map(|frame| (frame.index, frame.image)),
-            Self::Raw(reader) => reader.next_picture(&told)?.map(|image| (number, image)),
-        })
+        match self {
+            Self::Film(reader) => aside(|| reader.next_frame_in(pool), &told),
+            Self::Pair(reader) => aside(|| reader.next_frame_in(pool), &told),
+            Self::Raw(reader) => {
+                let picture = reader.next_picture(&told)?;
+                Ok(picture.map(|image| VideoFrame { index, time: 0, image, condition: FrameCondition::Whole }))
+            }
+        }
+    }
+
+    /// Returns what it has told of damage so far.
+    fn told(&self) -> Told<'_> {
+        match self {
+            Self::Film(reader) => Told {
+                faults: reader.faults().iter().collect(),
+                before: reader.faults_before().iter().collect(),
+                suspects: reader.suspect().into_iter().collect(),
+            },
+            Self::Pair(reader) => Told {
+                faults: reader.faults().collect(),
+                before: reader.faults_before().collect(),
+                suspects: reader.suspects().collect(),
+            },
+            Self::Raw(_) => Told { faults: Vec::new(), before: Vec::new(), suspects: Vec::new() },
+        }
     }
 }
 
@@ -554,19 +554,9 @@ impl State {
 
     /// Ends the decoder, and notes its faults.
     fn close(&mut self) {
-        let (faults, before): (Vec<Fault>, Vec<Fault>) = match self.reader.take() {
-            Some((Decoder::Film(reader), _)) => (reader.faults().to_vec(), reader.faults_before().to_vec()),
-            Some((Decoder::Pair(reader), _)) => {
-                (reader.faults().cloned().collect(), reader.faults_before().cloned().collect())
-            }
-            Some((Decoder::Raw(_), _)) | None => return,
-        };
-        for (known, found) in [(&mut self.faults, faults), (&mut self.before, before)] {
-            for Fault { frame, count, reason } in found {
-                // Of two streams, or of two decoders, the longer gap.
-                let known = known.entry(frame).or_insert((count, reason));
-                known.0 = known.0.max(count);
-            }
+        if let Some((reader, _)) = self.reader.take() {
+            self.damage.note(reader.told());
+            self.damage.begin();
         }
     }
 }

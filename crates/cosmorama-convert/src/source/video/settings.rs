@@ -31,6 +31,26 @@ pub enum DamagedFrames {
     Skip,
 }
 
+impl DamagedFrames {
+    /// Returns whether outputs may be made of frames with such damage.
+    pub(crate) fn accepts(self, damage: FrameDamage) -> bool {
+        match self {
+            Self::Error => false,
+            Self::Hold => true,
+            Self::Skip => damage == FrameDamage::Traces,
+        }
+    }
+}
+
+/// Difference of a video's frame from what it should be, from the least to the greatest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum FrameDamage {
+    /// It takes after a damaged one, and may show traces of it.
+    Traces,
+    /// Another one stands in its place.
+    Held,
+}
+
 /// Plan of the videos that a conversion makes.
 #[derive(Clone, Debug)]
 pub(crate) struct VideoPlan {

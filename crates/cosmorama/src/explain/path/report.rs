@@ -1,5 +1,7 @@
+use std::f64::consts::PI;
 use std::fmt::{Display, Formatter};
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::camera::View;
@@ -41,22 +43,26 @@ impl PathReport {
     /// Computes the report of a camera whose frames have these views each.
     pub fn of(world: &World, frames: &[Vec<View>]) -> Self {
         let directions: Vec<Direction> = Direction::spread(DIRECTIONS).collect();
-        let seen_in = |views: &Vec<View>| -> Vec<bool> {
-            directions.iter().map(|direction| views.iter().any(|view| view.sees(*direction))).collect()
-        };
-        let share = |seen: &[bool]| seen.iter().filter(|seen| **seen).count() as f64 / DIRECTIONS as f64;
-        let nothing = || (vec![false; DIRECTIONS], [1.0_f64, 0.0_f64]);
-        let (seen, at_once) = frames
-            .par_iter()
-            .map(|views| {
-                let seen = seen_in(views);
-                let share = share(&seen);
-                (seen, [share, share])
-            })
-            .reduce(nothing, |(mut seen, range), (more, other)| {
-                seen.iter_mut().zip(more).for_each(|(seen, more)| *seen |= more);
-                (seen, [range[0].min(other[0]), range[1].max(other[1])])
-            });
+        let share = |seen: usize| seen as f64 / DIRECTIONS as f64;
+        let (mut shapes, mut at_once) = (Vec::new(), [1.0_f64, 0.0_f64]);
+        for (index, views) in frames.iter().enumerate() {
+            if !shapes.last().is_some_and(|(_, shape): &(usize, Shape)| shape.is_of(views)) {
+                let shape = Shape::of(views, &directions);
+                at_once = [at_once[0].min(share(shape.seen)), at_once[1].max(share(shape.seen))];
+                shapes.push((index, shape));
+            }
+        }
+        let unseen: Vec<usize> = (0..DIRECTIONS).collect();
+        let parts = frames.par_iter().enumerate().fold(
+            || unseen.clone(),
+            |mut unseen, (index, views)| {
+                let shape = &shapes[shapes.partition_point(|(first, _)| *first <= index) - 1].1;
+                let near = shape.cap(views);
+                unseen.retain(|at| !(near(directions[*at]) && sees(views, directions[*at])));
+                unseen
+            },
+        );
+        let unseen = parts.reduce(|| unseen.clone(), |some, others| in_both(&some, &others));
         let centres: Vec<_> = frames.iter().flatten().filter_map(central_footprint).collect();
         let finest = centres.iter().min_by(|a, b| a.jacobian.solid_angle().total_cmp(&b.jacobian.solid_angle()));
         let advice = |source: &crate::world::Source| {
@@ -65,11 +71,69 @@ impl PathReport {
         };
         Self {
             frames: frames.len(),
-            seen: share(&seen),
+            seen: share(DIRECTIONS - unseen.len()),
             at_once,
             advised: world.sources().iter().filter_map(advice).collect(),
         }
     }
+}
+
+/// Views of a frame, but for how they are turned together, and what they show.
+struct Shape<'a> {
+    views: &'a [View],
+    /// Number of directions that they show.
+    seen: usize,
+    /// Middle of these in the frame of the first view, and cosine of the angle within which all of them lie.
+    cap: Option<(DVec3, f64)>,
+}
+
+impl<'a> Shape<'a> {
+    fn of(views: &'a [View], directions: &[Direction]) -> Self {
+        let seen: Vec<DVec3> = directions
+            .par_iter()
+            .filter(|direction| sees(views, **direction))
+            .map(|direction| direction.vector())
+            .collect();
+        let cap = seen.iter().sum::<DVec3>().try_normalize().zip(views.first()).map(|(middle, view)| {
+            let farthest = seen.iter().map(|direction| direction.dot(middle)).fold(1.0, f64::min);
+            // Between directions that are tested, some may lie farther out.
+            let cosine = (farthest.clamp(-1.0, 1.0).acos() + 2.0 * SPACING).min(PI).cos();
+            (view.orientation.vector_to_view(middle), cosine)
+        });
+        Self { views, seen: seen.len(), cap }
+    }
+
+    /// Returns whether other views differ from these by one turn of all.
+    fn is_of(&self, others: &[View]) -> bool {
+        let within = |views: &[View], view: &View| view.orientation.within(views[0].orientation.inverse());
+        self.views.len() == others.len()
+            && self.views.iter().zip(others).all(|(one, other)| {
+                let (placed, other_placed) = (within(self.views, one), within(others, other));
+                one.is_alike(other) && placed.angle_to(&other_placed).radians() < SAME
+            })
+    }
+
+    /// Returns whether such views, which may be turned, may show a direction.
+    fn cap(&self, views: &[View]) -> impl Fn(Direction) -> bool + use<> {
+        let turned = self.cap.zip(views.first());
+        let turned = turned.map(|((middle, cosine), view)| (view.orientation.vector_to_world(middle), cosine));
+        move |direction| turned.is_none_or(|(middle, cosine)| direction.vector().dot(middle) >= cosine)
+    }
+}
+
+/// Angle between neighbours of the directions that are tested, in radians.
+const SPACING: f64 = 0.025;
+
+/// Angle in radians between turns that count as the same.
+const SAME: f64 = 1e-6;
+
+fn sees(views: &[View], direction: Direction) -> bool {
+    views.iter().any(|view| view.sees(direction))
+}
+
+/// Returns the numbers that two ordered lists share.
+fn in_both(some: &[usize], others: &[usize]) -> Vec<usize> {
+    some.iter().copied().filter(|at| others.binary_search(at).is_ok()).collect()
 }
 
 impl Display for PathReport {
@@ -94,5 +158,55 @@ impl Display for PathReport {
             }
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::{CameraModel, FieldOfView, PerspectiveCamera};
+    use crate::raster::{Image, Rgba};
+    use crate::sphere::{Angle, Orientation};
+
+    fn turned(view: &View, [yaw, pitch, roll]: [f64; 3]) -> View {
+        view.turned(Orientation::from_yaw_pitch_roll(
+            Angle::from_degrees(yaw),
+            Angle::from_degrees(pitch),
+            Angle::from_degrees(roll),
+        ))
+    }
+
+    fn perspective(degrees: f64) -> View {
+        let camera = PerspectiveCamera::new(FieldOfView::Vertical(Angle::from_degrees(degrees)));
+        CameraModel::from(camera).view(640, 480).unwrap()
+    }
+
+    /// Compares with testing all directions in all frames, without caps and shapes.
+    #[test]
+    fn what_a_path_sees_is_what_its_frames_see() {
+        let (near, far, white) =
+            (perspective(45.0), perspective(80.0), Image::filled(64, 32, Rgba::opaque(1.0, 1.0, 1.0)));
+        let (world, _) = World::from_panorama(white).unwrap();
+        let turns = |k: usize| [7.0 * k as f64, 20.0 * (0.4 * k as f64).sin(), 3.0 * k as f64];
+        let one = |k: usize| vec![turned(if k < 9 { &near } else { &far }, turns(k))];
+        // Two cameras that part: their shares differ though each is alike.
+        let two = |k: usize| vec![turned(&near, turns(k)), turned(&near, [9.0 * k as f64, 0.0, 0.0])];
+        let none = |_: usize| Vec::new();
+        let makers: [&dyn Fn(usize) -> Vec<View>; 3] = [&one, &two, &none];
+        for make in makers {
+            let frames: Vec<Vec<View>> = (0..20).map(make).collect();
+            let found = PathReport::of(&world, &frames);
+            let directions: Vec<Direction> = Direction::spread(DIRECTIONS).collect();
+            let share = |frames: &[Vec<View>]| {
+                let seen = directions.iter().filter(|direction| frames.iter().any(|views| sees(views, **direction)));
+                seen.count() as f64 / DIRECTIONS as f64
+            };
+            assert_eq!(found.seen, share(&frames));
+            let shares: Vec<f64> = frames.iter().map(|views| share(std::slice::from_ref(views))).collect();
+            let ends = [shares.iter().copied().fold(1.0, f64::min), shares.iter().copied().fold(0.0, f64::max)];
+            for (found, expected) in found.at_once.iter().zip(ends) {
+                assert!((found - expected).abs() < 2e-3, "{found} instead of {expected}");
+            }
+        }
     }
 }

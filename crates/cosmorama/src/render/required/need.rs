@@ -55,11 +55,20 @@ impl Needs {
             Accuracy::Exact if !filter.kind.lists_texels() => Self::at_most(world, targets, filter),
             Accuracy::Seen => Self::at_most(world, targets, filter),
             Accuracy::Exact => Self::surveyed(world, targets, filter, Reads::Exactly),
-            Accuracy::Bounds => {
-                let quick = Self::within_reach(world, targets, filter);
-                quick.unwrap_or_else(|| Self::at_most(world, targets, filter)).settled(world, targets, filter)
-            }
+            Accuracy::Bounds => Self::bounds(world, targets, filter, |_, _| true),
         }
+    }
+
+    /// Finds bounds, as [`Accuracy::Bounds`] has them. Whether a view is read that no pixel's direction falls on is found where that matters,
+    /// by its place in the world and its need as far as it is known; elsewhere `read` may be `Some` where nothing is read.
+    pub fn bounds(
+        world: &World,
+        targets: &[View],
+        filter: &FilterSettings,
+        matters: impl Fn(usize, &Need) -> bool,
+    ) -> Self {
+        let quick = Self::within_reach(world, targets, filter);
+        quick.unwrap_or_else(|| Self::at_most(world, targets, filter)).settled(world, targets, filter, matters)
     }
 
     /// Finds bounds of what is read, a few texels too large.
@@ -68,8 +77,15 @@ impl Needs {
     }
 
     /// Decides whether views that no pixel's direction falls on are still read by the kernels around.
-    fn settled(mut self, world: &World, targets: &[View], filter: &FilterSettings) -> Self {
-        let asked: Vec<bool> = self.views.iter().map(|need| need.seen.is_none() && need.read.is_some()).collect();
+    fn settled(
+        mut self,
+        world: &World,
+        targets: &[View],
+        filter: &FilterSettings,
+        matters: impl Fn(usize, &Need) -> bool,
+    ) -> Self {
+        let is_open = |(at, need): (usize, &Need)| need.seen.is_none() && need.read.is_some() && matters(at, need);
+        let asked: Vec<bool> = self.views.iter().enumerate().map(is_open).collect();
         if !filter.kind.lists_texels() || !asked.contains(&true) {
             return self;
         }

@@ -104,6 +104,27 @@ fn what_is_within_reach_of_a_cube_holds_what_is_read() {
     }
 }
 
+#[test]
+fn what_does_not_matter_is_not_looked_for() {
+    let world = cube(&CubeFace::ALL, 700, 700);
+    let (mut open, mut read) = (0, 0);
+    for yaw in 0..12 {
+        let target = [perspective(40, 30, 85.0, 7.0 * f64::from(yaw), 4.0, 2.0)];
+        let settled = Needs::of(&world, &target, &FilterSettings::DEFAULT, Accuracy::Bounds);
+        for place in 0..settled.views.len() {
+            let found = Needs::bounds(&world, &target, &FilterSettings::DEFAULT, |at, _| at == place);
+            assert_eq!(found.views[place], settled.views[place]);
+            for (found, settled) in found.views.iter().zip(&settled.views) {
+                assert_eq!(found.seen, settled.seen);
+                assert!(settled.read.is_none_or(|read| found.read.is_some_and(|found| found.contains(&read))));
+                open += usize::from(found.read.is_some() && settled.read.is_none());
+                read += usize::from(found.read.is_some());
+            }
+        }
+    }
+    assert!(0 < open && open < read, "{open} of {read}");
+}
+
 /// What is found from blocks holds what each pixel needs.
 fn check_reach(world: &World, target: View, filter: &FilterSettings) {
     let exact = Needs::of(world, std::slice::from_ref(&target), filter, Accuracy::Exact);
