@@ -463,6 +463,13 @@ impl Conversion {
             && self.frames.as_ref().map_or_else(takes_frames, is_forward)
     }
 
+    /// Returns whether a camera moves, or what is behind its pictures.
+    pub(crate) fn moves(&self) -> bool {
+        let behind = std::iter::successors(self.backdrop.as_ref(), |backdrop| backdrop.behind.as_deref());
+        let Self { geometry: GeometrySettings { camera, in_path, .. }, .. } = self;
+        camera.is_some() || in_path.is_some() || behind.into_iter().any(|backdrop| backdrop.in_path.is_some())
+    }
+
     /// Sets the input's projection.
     #[must_use]
     pub fn from(mut self, spec: Spec) -> Self {

@@ -1,3 +1,4 @@
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
@@ -55,11 +56,15 @@ impl Conversion {
         let content = Content::of(&settings)?;
         let pool = threads(settings.limits.threads)?;
         let allowed = MemoryBudget::new(settings.limits.memory);
-        let resolve = |progress: &dyn Progress| {
+        let mut resolve = |progress: &dyn Progress| {
             let job = || ConvertJob::resolve(&settings, (content, Purpose::Pictures), (diagnostics, progress));
             stages.alone(Stage::Plan, job)
         };
-        let job = watched(&pool, observer, Work::Path, resolve).unwrap_or_else(|| Err(stopped((0, None))))?;
+        let job = if settings.moves() {
+            watched(&pool, observer, Work::Path, resolve).unwrap_or_else(|| Err(stopped((0, None))))?
+        } else {
+            pool.install(|| resolve(&|_| ControlFlow::Continue(())))?
+        };
         if content.has_files() {
             let check = || job.layers().try_for_each(FrameFile::check_frames);
             pool.install(|| stages.alone(Stage::Decode, check))?;

@@ -5,13 +5,14 @@ use std::sync::Arc;
 
 use cosmorama::raster::Threads;
 use cosmorama::render::Progress;
+use cosmorama_io::FrameList;
 use cosmorama_spec::Spec;
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
 use super::report::Further;
 use super::{Checked, Observer, Report, Stop, Work, decisions, threads, videos, watched};
-use crate::diagnostic::{Code, ConvertError, DEPTH, Diagnostic, Result, SCALE};
+use crate::diagnostic::{Code, ConvertError, DAMAGED, DEPTH, Diagnostic, Result, SCALE};
 use crate::engine::unfiltered::{OutputFile, formula, st_map};
 use crate::engine::{
     Engine, FrameFile, FrameLight, FrameWords, InterpolationReport, Levels, LightReport, Sequence, Spent, Stage,
@@ -121,6 +122,7 @@ impl Checked {
             is_first: true,
             done: 0,
             files: Vec::new(),
+            stale: Vec::new(),
         };
         run.tell(engine.told());
         engine.decisions().iter().for_each(|decision| run.observer.decided(decision));
@@ -140,6 +142,7 @@ impl Checked {
         };
         let mut told = engine.told();
         told.extend(run.tally.warnings(job));
+        told.extend(stale(&run.stale));
         told.extend(engine.tallied_behind());
         // Maps of light are measured by frame.
         let output = &*settings.output;
@@ -227,6 +230,8 @@ struct Run<'a> {
     done: usize,
     /// Files of frames that were not known at the beginning.
     files: Vec<PathBuf>,
+    /// Frames that are left out, though there are files in their places.
+    stale: Vec<u64>,
 }
 
 impl Run<'_> {
@@ -269,6 +274,11 @@ impl Watcher for Run<'_> {
         watched(self.pool, self.observer, Work::Render(frame.frame), render).unwrap_or_else(|| Err(self.stopped()))
     }
 
+    fn left_out(&mut self, frame: &FrameOutputs) {
+        let is_there = !self.job.target.format.is_video() && frame.files.iter().any(|(_, path)| path.exists());
+        self.stale.extend(frame.frame.filter(|_| is_there));
+    }
+
     fn done(&mut self, frame: &FrameOutputs) -> Result<()> {
         self.done += 1;
         // A video is one file of all frames, and named already.
@@ -289,6 +299,14 @@ impl Run<'_> {
     fn stopped(&self) -> ConvertError {
         stopped((self.done, self.job.outputs.count()))
     }
+}
+
+/// Returns the warning about files in the places of frames that are left out.
+fn stale(frames: &[u64]) -> Option<Diagnostic> {
+    let which = FrameList::new(frames.iter().copied());
+    let message =
+        format!("{DAMAGED}: files of frames {which}, which are left out, are there from an earlier run; remove them");
+    (!frames.is_empty()).then(|| Diagnostic::warning(Code::DamagedFrames, message))
 }
 
 /// Creates the error of a stop, when `done` of all `frames` are written.

@@ -41,6 +41,9 @@ pub(crate) trait Watcher {
     /// Renders the pictures of a frame.
     fn render(&mut self, frame: &FrameOutputs, light: &FrameLight) -> Result<Vec<Levels>>;
 
+    /// Receives a damaged frame of a video that is left out.
+    fn left_out(&mut self, frame: &FrameOutputs);
+
     /// Receives a frame that is written. An error ends the sequence.
     fn done(&mut self, frame: &FrameOutputs) -> Result<()>;
 }
@@ -155,6 +158,7 @@ impl<'a> Sequence<'a> {
             let images = results.all().at(|| named(&frame))?;
             let Some(images) = images.into_iter().collect::<Option<Vec<_>>>() else {
                 self.engine.writer().leave_out(place - 1)?;
+                watcher.left_out(&frame);
                 continue;
             };
             let mut images: Vec<ViewImage> = images.into_iter().flatten().collect();

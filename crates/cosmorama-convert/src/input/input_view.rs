@@ -63,6 +63,11 @@ impl InputView {
 
     /// Returns the view with its header and the geometry of its file, if there is a file and the view is wanted.
     pub(crate) fn present(&self) -> Option<(&Self, &Header, &View)> {
-        Some((self, self.header.as_ref()?, &self.window.as_ref()?.0)).filter(|_| self.wanted)
+        self.there().filter(|_| self.wanted)
+    }
+
+    /// Returns the view with its header and the geometry of its file, if there is a file, wanted or not.
+    pub(crate) fn there(&self) -> Option<(&Self, &Header, &View)> {
+        Some((self, self.header.as_ref()?, &self.window.as_ref()?.0))
     }
 }

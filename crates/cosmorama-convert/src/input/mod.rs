@@ -140,6 +140,11 @@ impl Input {
         self.views().filter_map(InputView::present)
     }
 
+    /// Visits the views that have files, wanted or not, with the geometry of those files: the same, whichever frames are made.
+    pub(crate) fn there(&self) -> impl Iterator<Item = (&InputView, &Header, &View)> {
+        self.views().filter_map(InputView::there)
+    }
+
     /// Visits all views of all worlds.
     pub(crate) fn views(&self) -> impl Iterator<Item = &InputView> {
         self.worlds.iter().flatten()

@@ -50,7 +50,7 @@ impl Origin {
         let Conversion { quality, mips, remarks, st_map, .. } = settings;
         let named = settings.geometry.to.iter().flat_map(|spec| spec.files.iter().cloned());
         let all = || job.layers();
-        let inputs = all().flat_map(|job| job.input.present());
+        let inputs = all().flat_map(|job| job.input.there());
         let views: Vec<_> = inputs.map(|(input, _, view)| (seen(view), input.part, input.blend)).collect();
         // Of a moving camera, those before it is moved.
         let wanted: Vec<_> = all().flat_map(|job| &job.target.views).map(|target| seen(&target.view)).collect();
@@ -90,7 +90,8 @@ impl Origin {
         let still = self.still.get_or_init(|| self.still_of(job));
         let read_by = |layer: &ConvertJob| -> Vec<Option<u64>> {
             let mut own = Samples::default();
-            let paths = layer.input.paths(layer.input.frames[place]);
+            let frame = layer.input.frames[place];
+            let paths: Vec<PathBuf> = layer.input.there().map(|(view, ..)| view.files.path(frame)).collect();
             let read = |path: &PathBuf| {
                 let file = FrameName::file(path);
                 let bytes = still.known(&file).unwrap_or_else(|| own.of(&*layer.files, file))?;
@@ -112,7 +113,7 @@ impl Origin {
     fn still_of(&self, job: &ConvertJob) -> Samples {
         let mut samples = Samples::default();
         for layer in job.layers() {
-            let stills = layer.input.present().filter(|(view, ..)| !matches!(view.files, ViewFiles::Sequence(_)));
+            let stills = layer.input.there().filter(|(view, ..)| !matches!(view.files, ViewFiles::Sequence(_)));
             let stills = stills.map(|(view, ..)| view.files.file(None));
             stills.chain(layer.input.beside.iter().cloned()).for_each(|path| _ = samples.of(&*layer.files, path));
         }
@@ -213,10 +214,14 @@ pub(crate) fn differences(found: &str, expected: &str) -> Vec<String> {
     names.filter(|name| !["check", "damage"].contains(name)).map(str::to_owned).collect()
 }
 
-/// Returns whether the first of two origins is damaged, the names of the parts in which they differ, and the first one's settings: fuzzing compares them without a conversion.
+/// Returns whether the first of two origins is damaged, the names of the parts in which they differ, the first one's settings, and what it says of damaged inputs: fuzzing compares them
+/// without a conversion.
 #[cfg(fuzzing)]
-pub fn compared_origins<'a>(found: &'a str, expected: &str) -> (bool, Vec<String>, Option<&'a str>) {
-    (is_damaged(found), differences(found, expected), settings_of(found))
+pub fn compared_origins<'a>(
+    found: &'a str,
+    expected: &str,
+) -> (bool, Vec<String>, Option<&'a str>, Option<&'static str>) {
+    (is_damaged(found), differences(found, expected), settings_of(found), damage_of(found).map(name))
 }
 
 /// Returns the size of a view, its limits, and the directions at a lattice of its pixels.

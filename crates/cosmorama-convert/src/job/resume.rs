@@ -269,6 +269,13 @@ fn otherwise(all: &[Otherwise], is_turn: bool) -> Option<ConvertError> {
     });
     let told = told.collect::<Vec<_>>().join("; other ");
     let frames = FrameList::new(all.iter().filter_map(|one| one.frame)).to_string();
+    if all.iter().all(|one| one.parts == ["damage"]) {
+        let message = format!(
+            "{RESUME}: {} was made of a film's damaged frame, by another {DAMAGED}; give the one that made it, or remove frames {frames} and go on",
+            path.display()
+        );
+        return Some(failed_as(Code::Remade, message));
+    }
     let (others, these, named) = if all.len() == 1 {
         (String::new(), "it", "frame")
     } else {

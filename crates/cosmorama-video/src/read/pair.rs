@@ -131,14 +131,14 @@ impl PairedReader {
         self.first.faults().iter().chain(self.second.faults())
     }
 
-    /// Returns the frames of which the decoders last said something; see [`VideoReader::suspect`].
-    pub fn suspects(&self) -> impl Iterator<Item = u64> {
-        self.first.suspect().into_iter().chain(self.second.suspect())
+    /// Returns damage of either stream that was found by decoding once more; see [`VideoReader::foreseen`].
+    pub fn foreseen(&self) -> impl Iterator<Item = &Fault> {
+        self.first.foreseen().iter().chain(self.second.foreseen())
     }
 
-    /// Returns damaged frames of either stream before the first that is asked for; see [`VideoReader::faults_before`].
-    pub fn faults_before(&self) -> impl Iterator<Item = &Fault> {
-        self.first.faults_before().iter().chain(self.second.faults_before())
+    /// Returns damaged frames of either stream beside those that are asked for; see [`VideoReader::faults_beside`].
+    pub fn faults_beside(&self) -> impl Iterator<Item = &Fault> {
+        self.first.faults_beside().iter().chain(self.second.faults_beside())
     }
 }
 

@@ -1,4 +1,8 @@
-//! Damage before the first frame that is asked for, and at the end of those that are.
+//! Damage around a frame of which something was heard, found by decoding once more.
+
+use std::ops::Range;
+
+use cosmorama::raster::EncodedImage;
 
 use super::reader::MARGIN;
 use super::{CodedOrder, Damaged, Fault, ReadOptions, VideoReader};
@@ -14,45 +18,90 @@ pub(super) struct Looked<'a> {
     pub(super) options: &'a ReadOptions,
 }
 
-/// Damage up to a frame, found by decoding once more. Messages alone do not tell: decoders complain of frames that lack others before the
+/// Damage around a frame, found by decoding once more. Messages alone do not tell: decoders complain of frames that lack others before the
 /// place where they began, too, and of frames that come later.
 pub(super) struct Damage {
     /// Frame from which was decoded: a key frame, if the file tells of any.
     pub(super) start: u64,
+    /// Frame up to which was decoded.
+    pub(super) last: u64,
+    /// Whether the decoder gave the frame itself, whatever it said of it.
+    pub(super) is_given: bool,
     /// Damaged frames from there on.
     pub(super) faults: Vec<Fault>,
     /// Coded frames around the frame.
     coded: Vec<CodedFrame>,
 }
 
-/// Damaged frames before the first that is asked for, and the first frame after it that may show traces of them.
-pub(super) struct Before {
+/// Damaged frames beside those that are looked at, and the first of these that may show traces of them.
+pub(super) struct Beside {
     pub(super) faults: Vec<Fault>,
     pub(super) traced: u64,
 }
 
+/// Frames beyond one of which something was heard within which the damaged one is: decoders work on as many at a time.
+pub(super) const PATIENCE: u64 = 64;
+
+/// Frames at the end of a look of which messages may be about later ones: one thread works on no more at a time.
+pub(super) const DELAY: u64 = 17;
+
 impl Looked<'_> {
-    /// Decodes from the second key frame before a frame up to the last one, by one thread, so that messages come before their frames. What
+    /// Decodes from the second key frame before a frame to some behind it, by one thread, so that messages come before their frames. What
     /// is heard before the first of them is not: damage of that key frame reaches to the next one.
-    pub(super) fn damage(self, (frame, last): (u64, u64)) -> Result<Damage, VideoError> {
+    pub(super) fn damage(self, frame: u64) -> Result<Damage, VideoError> {
         let Self { ffmpeg, info, options, .. } = self;
+        let (start, coded) = self.start_before(frame)?;
+        let last = self.last().map_or(frame, |last| last.min(frame + PATIENCE)).max(frame);
+        let options = ReadOptions { frames: Some(start..=last), damaged: Damaged::Skip, threads: 1, ..options.clone() };
+        let mut reader = VideoReader::looking_no_further(ffmpeg, info, options)?;
+        let mut is_given = false;
+        loop {
+            match reader.next_frame() {
+                Ok(Some(given)) => is_given |= given.index == frame,
+                // There may be fewer than are announced.
+                Ok(None) | Err(VideoError::NoSuchFrame { .. }) => break,
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(Damage { start, last, is_given, faults: reader.faults().to_vec(), coded })
+    }
+
+    /// Decodes the frame that is shown before one, with others in the places of damaged ones; `None` if there is none.
+    pub(super) fn shown_before(self, frame: u64) -> Result<Option<EncodedImage>, VideoError> {
+        let Some(before) = frame.checked_sub(1) else { return Ok(None) };
+        let (start, _) = self.start_before(frame)?;
+        let frames = Some(start..=before);
+        let options = ReadOptions { frames, damaged: Damaged::Hold, threads: 1, ..self.options.clone() };
+        let mut reader = VideoReader::looking_no_further(self.ffmpeg, self.info, options)?;
+        let mut shown = None;
+        while let Some(frame) = reader.next_frame()? {
+            shown = Some(frame.image);
+        }
+        Ok(shown)
+    }
+
+    /// Returns the number of the last frame, if it is known.
+    pub(super) fn last(self) -> Option<u64> {
+        let announced = self.info.announced.map(|announced| announced.frames);
+        self.timeline.frames().or(announced)?.checked_sub(1)
+    }
+
+    /// Returns the second key frame before a frame, or the first frame, with the coded frames around.
+    fn start_before(self, frame: u64) -> Result<(u64, Vec<CodedFrame>), VideoError> {
+        let Self { ffmpeg, info, .. } = self;
         let mut coded = self.around(frame)?;
         let mut keys = self.keys_before(&coded, frame);
         if keys.len() < 2 && self.timeline.time(0) != coded.iter().map(|coded| coded.time).min() {
             coded = ffmpeg.coded_frames(&info.path, info.stream, &[])?;
             keys = self.keys_before(&coded, frame);
         }
-        let start = if keys.len() < 2 { 0 } else { keys[keys.len() - 2] };
-        let options = ReadOptions { frames: Some(start..=last), damaged: Damaged::Skip, threads: 1, ..options.clone() };
-        let mut reader = VideoReader::looking_no_further(ffmpeg, info, options)?;
-        while reader.next_frame()?.is_some() {}
-        Ok(Damage { start, faults: reader.faults().to_vec(), coded })
+        Ok((if keys.len() < 2 { 0 } else { keys[keys.len() - 2] }, coded))
     }
 
     /// Reads what is said of the coded frames around one, from a while before.
     fn around(self, frame: u64) -> Result<Vec<CodedFrame>, VideoError> {
         /// Seconds behind it, within which frames that are decoded before it are shown.
-        const BEHIND: f64 = 2.0;
+        const BEHIND: f64 = 4.0;
         /// Seconds before it: the seek ends at a key frame before that.
         const BEFORE: f64 = 2.0;
         let Some(time) = self.timeline.time(frame) else { return Ok(Vec::new()) };
@@ -77,18 +126,28 @@ impl Damage {
         self.faults.iter().find(|fault| (fault.frame..fault.frame + fault.count).contains(&frame))
     }
 
-    /// Returns the damage before a frame, if a frame that is looked at may show traces of it.
-    pub(super) fn before(self, frame: u64, looked: Looked) -> Option<Before> {
+    /// Returns the first fault of a frame that is looked at.
+    pub(super) fn of_looked_at(&self, options: &ReadOptions) -> Option<&Fault> {
+        self.faults.iter().find(|fault| frames(fault).any(|frame| options.looks_at(frame)))
+    }
+
+    /// Returns the damage beside the frames that are looked at, if one of these may show traces of it.
+    pub(super) fn beside(&self, frame: u64, looked: Looked) -> Option<Beside> {
         let Looked { info, timeline, options, .. } = looked;
-        let part = |fault: &Fault| Fault { count: fault.count.min(frame - fault.frame), ..fault.clone() };
-        let faults: Vec<Fault> = self.faults.iter().filter(|fault| fault.frame < frame).map(part).collect();
-        let damaged: Vec<_> = faults.iter().map(|fault| fault.frame..fault.frame + fault.count).collect();
+        let is_beside = |fault: &&Fault| !frames(fault).any(|frame| options.looks_at(frame));
+        let faults: Vec<Fault> = self.faults.iter().filter(is_beside).cloned().collect();
+        let damaged: Vec<_> = faults.iter().map(frames).collect();
         let all = if self.coded.is_empty() && !faults.is_empty() {
             vec![frame]
         } else {
-            CodedOrder::new(self.coded, timeline.clone(), info).traces(&damaged)
+            CodedOrder::new(self.coded.clone(), timeline.clone(), info).traces(&damaged)
         };
-        let traced = all.into_iter().find(|traced| *traced >= frame && options.looks_at(*traced))?;
-        Some(Before { faults, traced })
+        let traced = all.into_iter().find(|traced| options.looks_at(*traced))?;
+        Some(Beside { faults, traced })
     }
+}
+
+/// Returns the frames of a fault.
+fn frames(fault: &Fault) -> Range<u64> {
+    fault.frame..fault.frame.saturating_add(fault.count)
 }

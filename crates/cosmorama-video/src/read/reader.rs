@@ -1,6 +1,6 @@
 use super::decoder::{Decoded, Decoder, Ended, Next, Start};
 use super::filters::{Pixels, Raw};
-use super::preceding::{Before, Looked};
+use super::preceding::{Beside, DELAY, Damage, Looked, PATIENCE};
 use super::{Damaged, Fault, FrameCondition, ReadOptions, VideoFrame};
 use crate::{Announced, AnnouncedBy, CutShort, Ffmpeg, Timeline, VideoError, VideoInfo};
 use cosmorama::raster::{EncodedImage, FramePool};
@@ -29,13 +29,17 @@ pub struct VideoReader {
     may_restart: bool,
     /// Whether frames are decoded once more where something is heard that may be about others than those that are asked for.
     looks_again: bool,
+    /// Number of the first frame around which that was not done yet.
+    looked_to: u64,
     /// Whether that was not done yet for frames before the first.
     may_look_before: bool,
     /// Fault of the first frame, which was found so.
     own: Option<Fault>,
     faults: Vec<Fault>,
-    /// Damaged frames before the first that is asked for.
-    before: Vec<Fault>,
+    /// Damaged frames beside those that are asked for.
+    beside: Vec<Fault>,
+    /// Damage that was found by decoding once more.
+    foreseen: Vec<Fault>,
 }
 
 /// Frame with its number.
@@ -54,9 +58,6 @@ struct Complaint {
 
 /// Frames in a row that are held at most. More are no gap, but a lie about times or numbers.
 const LONGEST_HOLD: u64 = 100_000;
-
-/// Frames after a message in which the frame that it is about must be missed: decoders work on as many at a time.
-const PATIENCE: u64 = 64;
 
 /// Frames from whose number on seeking is worth it.
 const WORTH_SEEKING: u64 = 50;
@@ -106,10 +107,12 @@ impl VideoReader {
             last: 0,
             may_restart: start.seek.is_some(),
             looks_again: true,
+            looked_to: 0,
             may_look_before: true,
             own: None,
             faults: Vec::new(),
-            before: Vec::new(),
+            beside: Vec::new(),
+            foreseen: Vec::new(),
         })
     }
 
@@ -147,14 +150,15 @@ impl VideoReader {
         &self.faults
     }
 
-    /// Returns damaged frames before the first that is asked for, after which some that are may take, and show traces.
-    pub fn faults_before(&self) -> &[Fault] {
-        &self.before
+    /// Returns damaged frames beside those that are asked for, after which some of these may take, and show traces.
+    pub fn faults_beside(&self) -> &[Fault] {
+        &self.beside
     }
 
-    /// Returns the frame of which the decoder last said something, until it shows which frame is damaged.
-    pub fn suspect(&self) -> Option<u64> {
-        self.complaint.as_ref().map(|complaint| complaint.frame)
+    /// Returns damage that was found by decoding once more, when something was heard, perhaps before its frames come: some that come before
+    /// may take after them, too.
+    pub fn foreseen(&self) -> &[Fault] {
+        &self.foreseen
     }
 
     /// Returns the times of the frames.
@@ -229,6 +233,7 @@ impl VideoReader {
                 frame.complaint = Some(reason);
             }
             if let Some(text) = frame.complaint.take() {
+                self.look_ahead(index)?;
                 // The first names the cause.
                 self.complaint.get_or_insert(Complaint { frame: index, text });
             }
@@ -250,19 +255,48 @@ impl VideoReader {
         Ok(())
     }
 
-    /// Finds out whether frames up to the first one that is asked for are damaged. Returns the frame from which was looked.
+    /// Finds out what is damaged around the first frame that is asked for. Returns the frame from which was looked.
     fn look_before(&mut self) -> Result<u64, VideoError> {
         let first = self.expected;
-        let damage = self.looked().damage((first, first))?;
+        let damage = self.looked().damage(first)?;
+        self.own = damage.of(first).filter(|_| !damage.is_given).cloned();
         let from = damage.start;
-        self.own = damage.of(first).cloned();
-        if let Some(Before { faults, traced }) = damage.before(first, self.looked()) {
-            if let (Damaged::Error, Some(Fault { frame, reason, .. })) = (self.options.damaged, faults.first()) {
-                self.tell(*frame, 1, format!("{reason}; frame {traced}, which is asked for, may take after it"))?;
-            }
-            self.before = faults;
-        }
+        self.foresee(first, damage)?;
         Ok(from)
+    }
+
+    /// Finds out what is damaged around a frame before which something was heard.
+    fn look_ahead(&mut self, frame: u64) -> Result<(), VideoError> {
+        if !self.looks_again || frame < self.looked_to {
+            return Ok(());
+        }
+        let damage = self.looked().damage(frame)?;
+        self.foresee(frame, damage)
+    }
+
+    /// Notes damage that was found around a frame, or fails for it.
+    fn foresee(&mut self, frame: u64, damage: Damage) -> Result<(), VideoError> {
+        self.looked_to = damage.last + 1;
+        let (own, beside) = (damage.of_looked_at(&self.options).cloned(), damage.beside(frame, self.looked()));
+        if self.options.damaged == Damaged::Error {
+            let first = beside.and_then(|Beside { faults, traced }| Some((faults.into_iter().next()?, traced)));
+            return match (first, own) {
+                (Some((Fault { frame, reason, .. }, traced)), own)
+                    if own.as_ref().is_none_or(|own| frame < own.frame) =>
+                {
+                    self.tell(frame, 1, format!("{reason}; frame {traced}, which is asked for, may take after it"))
+                }
+                (_, Some(Fault { frame, count, reason })) => self.tell(frame, count, reason),
+                _ => Ok(()),
+            };
+        }
+        if let Some(Beside { faults, .. }) = beside {
+            let is_new = |fault: &Fault| !self.beside.contains(fault);
+            let new: Vec<Fault> = faults.into_iter().filter(is_new).collect();
+            self.beside.extend(new);
+        }
+        self.foreseen.extend(damage.faults);
+        Ok(())
     }
 
     fn looked(&self) -> Looked<'_> {
@@ -274,11 +308,12 @@ impl VideoReader {
     fn settle_at_the_end(&mut self, last: u64) -> Result<(), VideoError> {
         let Some(Complaint { frame, text }) = self.complaint.take() else { return Ok(()) };
         if !self.looks_again {
-            return self.tell(frame, 1, text);
+            let may_be_later = frame + DELAY > last && self.looked().last().is_some_and(|end| last < end);
+            return if may_be_later { Ok(()) } else { self.tell(frame, 1, text) };
         }
-        let found = self.looked().damage((frame, last))?.faults.into_iter();
+        let found = self.foreseen.clone().into_iter();
         let told = found.filter(|fault| fault.frame <= last && fault.frame + fault.count > frame);
-        for Fault { frame, count, reason } in told.collect::<Vec<_>>() {
+        for Fault { frame, count, reason } in told {
             if !self.is_told(frame) {
                 self.tell(frame, count, reason)?;
             }
@@ -305,6 +340,10 @@ impl VideoReader {
             self.tell(first, count, reason)?;
         }
         if self.options.damaged == Damaged::Hold {
+            if self.held.is_none() && self.looks_again {
+                // What is before the first frame that is asked for is held, too.
+                self.held = self.looked().shown_before(first)?;
+            }
             if is_corrupt && self.held.is_none() {
                 // The next one is shown instead.
                 return Ok(None);

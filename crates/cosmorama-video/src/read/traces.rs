@@ -45,9 +45,10 @@ impl CodedOrder {
         }
         let meant: Vec<_> = damaged.iter().map(|range| range.start..range.end + 1).collect();
         let painted = shown_times(frames).into_iter().map(|time| timeline.frame(time));
-        let painted = painted.filter(|frame| damaged.iter().any(|range| range.end == *frame));
+        let (ends, apart): (BTreeSet<u64>, _) = (damaged.iter().map(|range| range.end).collect(), disjoint(damaged));
+        let painted = painted.filter(|frame| ends.contains(frame));
         let mut found: BTreeSet<u64> = traces(frames, timeline, &meant).into_iter().chain(painted).collect();
-        found.retain(|frame| damaged.iter().all(|range| !range.contains(frame)));
+        found.retain(|frame| holding(&apart, *frame).is_none());
         found.into_iter().collect()
     }
 }

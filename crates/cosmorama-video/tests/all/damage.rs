@@ -154,7 +154,7 @@ fn damage_before_the_first_frame_that_is_asked_for_is_told_as_far_as_it_reaches(
                 found.push(frame.index);
             }
             let numbers = |faults: &[Fault]| faults.iter().map(|fault| fault.frame).collect::<Vec<_>>();
-            Ok((found, numbers(reader.faults()), numbers(reader.faults_before())))
+            Ok((found, numbers(reader.faults()), numbers(reader.faults_beside())))
         };
         let error = read(damaged + 3, key + 5, Damaged::Error).unwrap_err();
         assert!(matches!(error, VideoError::DamagedFrame { frame, .. } if frame == damaged), "{error}");

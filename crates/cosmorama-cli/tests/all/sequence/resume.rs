@@ -87,6 +87,34 @@ fn resume_knows_its_own_outputs_in_every_format() {
     crate::bench::assert_says(&bench.fail(2, &args), &["--resume", "builtin:direction-map", "--overwrite"]);
 }
 
+/// Faces that no frame needs, or only some of a camera's path, are inputs all the same: in whatever parts frames are made.
+#[test]
+fn frames_of_a_cube_of_which_some_faces_are_needed_are_kept() {
+    let bench = Bench::new();
+    for frame in 1..=4 {
+        bench.faces(&format!("sky{frame}_"), 16);
+    }
+    let still = ["convert", "sky#_{face}.png", "out_#.png", "--to", "fulldome", "--size", "16"];
+    let turn = ["convert", "sky1_{face}.png", "turn_#.png", "--to", "perspective:fov=40", "--size", "16", "--frames"];
+    std::fs::write(bench.path("path.csv"), "frame,yaw,pitch,roll\n1,0,0,0\n4,120,0,0\n").unwrap();
+    let path = ["--path", "path.csv", "--json"];
+    let kept = |args: &[&str]| {
+        let report: Value = serde_json::from_str(&bench.succeed(args)).unwrap();
+        [&report["frames"], &report["skipped"]].map(|count| count.as_u64().unwrap())
+    };
+    bench.succeed(&still);
+    assert_eq!(kept(&[&still[..], &["--resume", "--json"]].concat()), [0, 4]);
+    bench.succeed(&[&turn[..], &["1"], &path].concat());
+    assert_eq!(kept(&[&turn[..], &["1-3"], &path, &["--resume"]].concat()), [2, 1]);
+    assert_eq!(kept(&[&turn[..], &["2-4"], &path, &["--resume"]].concat()), [1, 2]);
+    // A still cube as backdrop has frames of its own chunk, too.
+    bench.save("hole.png", &picture(1, 16, 8));
+    let over = ["convert", "hole.png", "over_#.png", "--from", "perspective:fov=20", "--backdrop", "sky1_{face}.png"];
+    let over = [&over[..], &["--to", "perspective:fov=40", "--size", "16", "--frames"]].concat();
+    bench.succeed(&[&over[..], &["1"], &path].concat());
+    assert_eq!(kept(&[&over[..], &["1-4"], &path, &["--resume"]].concat()), [3, 1]);
+}
+
 #[test]
 fn frames_by_other_settings_or_of_other_inputs_are_no_part_of_it() {
     for end in ["png", "exr", "tif", "jpg", "hdr"] {

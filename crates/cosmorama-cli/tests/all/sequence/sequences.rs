@@ -439,7 +439,7 @@ fn explain_tells_of_frames_that_do_not_exist() {
     };
     let (costs, told) = explained("2-9");
     assert_says(&costs, &["8 frames: about"]);
-    assert_says(&told, &["note: sky_#.png: 6 frames are missing: 4-9; the first that exists is 1, the last 3"]);
+    assert_says(&told, &["warning: sky_#.png: 6 frames are missing: 4-9; the first that exists is 1, the last 3"]);
     let (_, told) = explained("1-3");
     assert!(!told.contains("missing"), "{told}");
 }

@@ -1,5 +1,7 @@
 //! Sequences with faults, each of which `verify` names by its frame.
 
+use std::collections::BTreeSet;
+
 use crate::bench::{Bench, assert_says, flat, picture, text};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
 use serde_json::{Value, json};
@@ -133,7 +135,7 @@ fn a_sheet_shows_every_so_many_frames() {
     bench.succeed(&["verify", "dome_#.png", "--sheet", "sheet.png", "--every", "2"]);
     // Frames 1, 3, 5 and 7, two by two.
     let sheet = bench.load("sheet.png");
-    assert_eq!((sheet.width(), sheet.height()), (32 + 4 + 32, 16 + 4 + 16));
+    assert_eq!((sheet.width(), sheet.height()), (32 + 4 + 32, 2 * (16 + 14) + 4));
     let told = bench.fail(1, &["verify", "dome_#.png", "--sheet", "sheet.png"]);
     assert_says(&told, &["sheet.png", "-y"]);
     bench.succeed(&["verify", "dome_#.png", "--sheet", "new/sheet.png"]);
@@ -343,15 +345,71 @@ fn frames_that_damage_has_reached_are_kept_by_who_accepts_them_alone() {
         assert!(kept.status.success(), "{}", text(&kept.stderr));
         assert_says(&text(&kept.stderr), &["30"]);
         let refused = bench.fail(1, &resumed(&[]));
-        assert_says(&refused, &["_13.", "answers to damaged frames (--damaged), and 6 more were", "--frames 13-19"]);
+        assert_says(&refused, &["_13.", "by another --damaged; give the one that made it, or remove frames 13-19"]);
         let refused = bench.fail(1, &resumed(&["--damaged", "skip"]));
-        assert_says(&refused, &["_13.", "was made with other answers to damaged frames (--damaged);"]);
+        assert_says(&refused, &["_13.", "by another --damaged; give the one that made it, or remove frames 13 and"]);
         // Without what is to be kept, the film's damage is told as ever.
         (13..20).for_each(|frame| std::fs::remove_file(bench.path(&name.replace("##", &frame.to_string()))).unwrap());
         assert_says(&bench.fail(1, &resumed(&[])), &["frame 13 is damaged"]);
         let held = bench.run(&resumed(&["--damaged", "hold"]));
         assert!(held.status.success(), "{}", text(&held.stderr));
     }
+}
+
+/// With B frames, some that are shown before the damaged one take after it; and where a run begins makes no difference.
+#[test]
+fn the_words_for_damage_are_the_same_in_whatever_parts_frames_are_made() {
+    if !has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    let source = "testsrc2=size=256x128:rate=25,trim=end_frame=125";
+    let codec = ["-c:v", "libx264", "-bf", "2", "-g", "20", "-x264-params", "b-pyramid=0:scenecut=0"];
+    ffmpeg(&bench, &[&["-f", "lavfi", "-i", source][..], &codec, &["film.mkv"]].concat());
+    let args = |name: &'static str, more: &[&'static str]| {
+        let to = ["convert", "film.mkv", name, "--from", "equirect", "--to", "fulldome", "--size", "32"];
+        [&to[..], more].concat()
+    };
+    bench.succeed(&args("whole_###.png", &[]));
+    let bytes = std::fs::read(bench.path("film.mkv")).unwrap();
+    let told = said(&bench, "film.mkv", "v", "packet=pos,size,pts_time");
+    let of = |name: &str| {
+        let all = told.lines().filter_map(|line| line.strip_prefix(name)?.parse::<f64>().ok());
+        all.collect::<Vec<_>>()
+    };
+    let (times, places, sizes) = (of("pts_time="), of("pos="), of("size="));
+    // A frame after which one that is shown before it takes.
+    let at = (90..100).find(|at| times[*at] > times[at + 1]).unwrap();
+    let (place, size) = (places[at] as usize, sizes[at] as usize);
+    let mut damaged = bytes.clone();
+    damaged[place + 20..place + size].fill(0x5a);
+    std::fs::write(bench.path("film.mkv"), damaged).unwrap();
+    bench.succeed(&args("all_###.png", &["--damaged", "hold"]));
+    let faulty = |name: &str| {
+        let report: Value = serde_json::from_slice(&bench.run(&["verify", name, "--json"]).stdout).unwrap();
+        let faults = report["faults"].as_array().unwrap().iter().map(|fault| fault["frame"].as_u64().unwrap());
+        faults.collect::<BTreeSet<_>>()
+    };
+    let (marked, doubted) = (faulty("all_###.png"), faulty("film.mkv"));
+    assert!(marked.iter().all(|frame| doubted.contains(frame)), "{marked:?}, {doubted:?}");
+    let picture = |name: &str, frame: u64| bench.load(&format!("{name}_{frame:03}.png"));
+    let changed: Vec<u64> = (0..125).filter(|frame| picture("all", *frame) != picture("whole", *frame)).collect();
+    assert!(changed.len() > 3 && changed.iter().all(|frame| marked.contains(frame)), "{changed:?}, {marked:?}");
+    // Each begins somewhere else, at a frame that is held, and at those that take after it.
+    for part in ["0-88", "89-90", "91-91", "92-92", "93-93", "94-124"] {
+        bench.run(&args("part_###.png", &["--damaged", "hold", "--frames", part]));
+    }
+    for frame in 0..125 {
+        let [all, part] = ["all", "part"].map(|name| bench.bytes(&format!("{name}_{frame:03}.png")));
+        assert!(all == part, "frame {frame}: {marked:?}");
+    }
+    // Without an answer none of these is passed on, and those before bear no word.
+    for part in ["80-90", "90-90", "92-93", "93-98"] {
+        let refused = bench.run(&args("plain_###.png", &["-y", "--frames", part]));
+        assert_eq!(refused.status.code(), Some(1), "{part}: {}", text(&refused.stderr));
+    }
+    bench.succeed(&args("plain_###.png", &["-y", "--frames", "60-86"]));
+    assert!(bench.run(&["verify", "plain_###.png", "--frames", "60-86"]).status.success());
 }
 
 #[test]

@@ -141,12 +141,12 @@ impl ExplanationSettings {
         Ok((input, pictures, movement, filter))
     }
 
-    /// Returns a note about frames that are asked for and do not exist. They may be made yet, so their cost is told, too.
+    /// Returns a warning about frames that are asked for and do not exist. They may be made yet, so their cost is told, too.
     fn missing_frames(&self, input: &Input, access: Access) -> Option<Diagnostic> {
         let asked = self.frames.as_ref()?;
-        let mut files = input.present().map(|(view, ..)| &view.files);
+        let mut files = input.present().map(|(view, ..)| &view.files).filter(|files| files.has_frames());
         let missing = files.find_map(|files| wanted_frames::find(files, access.files, Some(asked)).err())?;
-        Some(Diagnostic::note(Code::NotFound, missing.message()))
+        (missing.code() == Code::NotFound).then(|| Diagnostic::warning(Code::NotFound, missing.message()))
     }
 
     /// Resolves the movement of the camera, and turns the pictures to its first frame.
@@ -248,10 +248,11 @@ impl Explanation {
         self.movement.is_some()
     }
 
-    /// Explains the path of a moving camera, while an observer is told how far that is; `None` where it stands still.
+    /// Explains the path of a moving camera; `None` where it stands still. An observer is told how far files are compared with what is needed
+    /// of them.
     ///
     /// # Errors
-    /// When its field of view goes beyond what the projection can show; [`ConvertError::Stopped`] if the observer ends it.
+    /// When its field of view goes beyond what the projection can show, or the observer ends it.
     pub fn path(&self, worlds: &[World], observer: &mut dyn Observer) -> Result<Option<PathExplanation>> {
         let Some((movement, targets)) = &self.movement else { return Ok(None) };
         let numbers: Vec<u64> = self.input.frames.iter().copied().flatten().collect();

@@ -21,6 +21,7 @@ use crate::settings::LimitSettings;
 use crate::source::video::{DamagedFrames, Videos};
 use crate::source::{ChosenFiles, Files, MemoryBudget, Name, ViewFiles, existing_frames, light_bytes, probe};
 use frame::{Found, Frame};
+use sheet::Shown;
 
 pub use judge::{Fault, Faults};
 pub use sheet::SheetLayout;
@@ -47,7 +48,7 @@ pub struct Verified {
     pub frames: usize,
     /// Faults of each frame that has some, in the order of the frames.
     pub faults: Vec<Faults>,
-    /// Small pictures of the frames that were asked for, row by row.
+    /// Small pictures of the frames that were asked for, row by row, with their numbers: red where there is a fault.
     pub sheet: Option<Image<Rgba>>,
 }
 
@@ -106,8 +107,10 @@ impl Verification<'_> {
         if let Some((video, videos)) = video {
             tell_reasons(&mut frames, video, videos)?;
         }
-        let sheet = self.sheet.map(|_| sheet::of(frames.iter().filter_map(Frame::thumbnail)));
-        Ok(Verified { frames: frames.len(), faults: judge::faults(&frames, self.size), sheet })
+        let faults = judge::faults(&frames, self.size);
+        let asked = &frames[..wanted.len()];
+        let sheet = self.sheet.map(|layout| drawn(asked, &faults, layout));
+        Ok(Verified { frames: frames.len(), faults, sheet })
     }
 
     /// Returns the frames that there should be, in order.
@@ -187,6 +190,16 @@ fn tell_reasons(frames: &mut Vec<Frame>, video: &Path, videos: &Videos) -> Resul
     let further = faults.into_iter().filter(|(range, _)| Some(range.start) == after);
     frames.extend(further.take(1).map(|(range, reason)| Frame { number: range.start, found: Found::Damage(reason) }));
     Ok(())
+}
+
+/// Draws the contact sheet.
+fn drawn(frames: &[Frame], faults: &[Faults], layout: SheetLayout) -> Image<Rgba> {
+    let shown = frames.iter().enumerate().filter(|(index, _)| layout.shows(*index)).map(|(_, frame)| Shown {
+        number: frame.number,
+        picture: frame.thumbnail(),
+        is_faulty: faults.binary_search_by_key(&frame.number, |of| of.frame).is_ok(),
+    });
+    sheet::of(&shown.collect::<Vec<_>>())
 }
 
 /// Returns how many of the next frames fit into memory at once when decoded.

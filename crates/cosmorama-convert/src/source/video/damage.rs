@@ -15,26 +15,43 @@ pub(super) type Faults = BTreeMap<u64, (u64, String)>;
 pub(super) struct Damage {
     /// Faults of frames that are left out, or in place of which others are shown.
     pub(super) faults: Faults,
-    /// Damaged frames before those that were asked for, after which some of these take.
-    pub(super) before: Faults,
-    /// Frames of which a decoder said something.
-    suspects: BTreeSet<u64>,
+    /// Damaged frames beside those that were asked for, after which some of these take.
+    pub(super) beside: Faults,
     /// Number of faults that the decoder at work has told of.
     told: usize,
-    /// Frames that all of these reach.
-    reached: Reached,
-    /// Frames that were decoded and are not what they should be.
-    frames: BTreeMap<u64, FrameDamage>,
 }
 
 /// Findings of a decoder.
+#[derive(Default)]
 pub(super) struct Told<'a> {
     /// Faults of the frames that are asked for.
     pub(super) faults: Vec<&'a Fault>,
-    /// Faults before them.
-    pub(super) before: Vec<&'a Fault>,
-    /// Frames of which something was said last.
-    pub(super) suspects: Vec<u64>,
+    /// Faults of others.
+    pub(super) beside: Vec<&'a Fault>,
+    /// Faults of either, some of which are to come.
+    pub(super) foreseen: Vec<&'a Fault>,
+}
+
+/// Frames that damage has reached.
+#[derive(Debug, Default)]
+pub(super) struct Marks {
+    /// Damaged frames, in the order in which they became known.
+    known: Vec<Range<u64>>,
+    /// Beginnings and ends of these.
+    ends: BTreeSet<[u64; 2]>,
+    /// Frames that were decoded after some was known.
+    frames: BTreeMap<u64, Mark>,
+    /// Frames that the first so many of these reach.
+    reached: (usize, Reached),
+}
+
+/// Mark of a frame that was decoded.
+#[derive(Clone, Copy, Debug)]
+enum Mark {
+    /// Another one stands in its place.
+    Held,
+    /// So many damaged frames were known by then.
+    Knowing(usize),
 }
 
 /// Frames that damage reaches.
@@ -45,6 +62,51 @@ struct Reached {
     traced: Option<BTreeSet<u64>>,
 }
 
+impl Marks {
+    /// Marks a frame that was just decoded, by what is known then: so that it does not matter who asks for it, and when.
+    pub(super) fn mark(&mut self, frame: u64, is_held: bool, told: &Told) {
+        for fault in told.faults.iter().chain(&told.beside).chain(&told.foreseen) {
+            let range = fault.frame..fault.frame.saturating_add(fault.count);
+            if self.ends.insert([range.start, range.end]) {
+                self.known.push(range);
+            }
+        }
+        let mark = if is_held { Mark::Held } else { Mark::Knowing(self.known.len()) };
+        if !self.known.is_empty() {
+            self.frames.insert(frame, mark);
+        }
+    }
+
+    /// Returns what is the matter with a frame that was decoded. `traces` finds the frames that take after others.
+    pub(super) fn of_frame(
+        &mut self,
+        frame: u64,
+        traces: impl FnOnce(&[Range<u64>]) -> Option<BTreeSet<u64>>,
+    ) -> Option<FrameDamage> {
+        let count = match self.frames.get(&frame)? {
+            Mark::Held => return Some(FrameDamage::Held),
+            Mark::Knowing(count) => *count,
+        };
+        if self.reached.0 != count {
+            let damaged = self.known[..count].to_vec();
+            self.reached = (count, Reached { traced: traces(&damaged), damaged });
+        }
+        self.reached.1.has(frame).then_some(FrameDamage::Traces)
+    }
+}
+
+impl Reached {
+    fn has(&self, frame: u64) -> bool {
+        let is_damaged = self.damaged.iter().any(|range| range.contains(&frame));
+        let first = || self.damaged.iter().map(|range| range.start).min();
+        is_damaged
+            || match &self.traced {
+                Some(traced) => traced.contains(&frame),
+                None => first().is_some_and(|first| first < frame),
+            }
+    }
+}
+
 impl Damage {
     /// Notes that another decoder begins, which may tell of the same.
     pub(super) fn begin(&mut self) {
@@ -52,41 +114,18 @@ impl Damage {
     }
 
     /// Notes what a decoder tells.
-    pub(super) fn note(&mut self, Told { faults, before, suspects }: Told) {
-        self.suspects.extend(suspects);
-        if self.told == faults.len() + before.len() {
+    pub(super) fn note(&mut self, Told { faults, beside, .. }: Told) {
+        if self.told == faults.len() + beside.len() {
             return;
         }
-        self.told = faults.len() + before.len();
-        for (known, found) in [(&mut self.faults, faults), (&mut self.before, before)] {
+        self.told = faults.len() + beside.len();
+        for (known, found) in [(&mut self.faults, faults), (&mut self.beside, beside)] {
             for Fault { frame, count, reason } in found {
                 // Of two streams, or of two decoders, the longer gap.
                 let known = known.entry(*frame).or_insert_with(|| (*count, reason.clone()));
                 known.0 = known.0.max(*count);
             }
         }
-    }
-
-    /// Notes a frame that was decoded. By what is known then, so that it does not matter who asks for it, and when.
-    pub(super) fn note_frame(
-        &mut self,
-        frame: u64,
-        is_held: bool,
-        traces: impl FnOnce(&[Range<u64>]) -> Option<BTreeSet<u64>>,
-    ) {
-        let damaged = ranges(self.faults.iter().chain(&self.before));
-        let damaged: Vec<_> = damaged.chain(self.suspects.iter().map(|frame| *frame..frame + 1)).collect();
-        if damaged != self.reached.damaged {
-            self.reached = Reached { traced: traces(&damaged), damaged };
-        }
-        let found =
-            if is_held { Some(FrameDamage::Held) } else { self.reached.has(frame).then_some(FrameDamage::Traces) };
-        self.frames.extend(found.map(|found| (frame, found)));
-    }
-
-    /// Returns what is the matter with a frame that was decoded.
-    pub(super) fn of_frame(&self, frame: u64) -> Option<FrameDamage> {
-        self.frames.get(&frame).copied()
     }
 
     /// Returns the complaint about frames that were held or left out. `traces` counts the frames that take after some.
@@ -97,7 +136,7 @@ impl Damage {
         let instead = if is_left_out {
             "left out, so that what follows comes earlier than its sound"
         } else {
-            "replaced by the one before"
+            "replaced by the one before (at the beginning, by the first whole one)"
         };
         let further = match traces(faults) {
             0 => String::new(),
@@ -111,25 +150,13 @@ impl Damage {
     }
 
     /// Returns the complaint about frames that may take after one that was not asked for.
-    pub(super) fn complaint_before(&self, traces: impl Fn(&Faults) -> u64) -> Option<String> {
-        let (damaged, (_, reason)) = self.before.first_key_value()?;
-        let traced = traces(&self.before);
+    pub(super) fn complaint_beside(&self, traces: impl Fn(&Faults) -> u64) -> Option<String> {
+        let (damaged, (_, reason)) = self.beside.first_key_value()?;
+        let traced = traces(&self.beside);
         (traced > 0).then(|| {
             let frames = if traced == 1 { "frame may" } else { "frames may" };
             format!("{traced} {frames} take after frame {damaged}, which is damaged ({reason}) though it is not asked for, and show traces")
         })
-    }
-}
-
-impl Reached {
-    fn has(&self, frame: u64) -> bool {
-        let is_damaged = self.damaged.iter().any(|range| range.contains(&frame));
-        let first = || self.damaged.iter().map(|range| range.start).min();
-        is_damaged
-            || match &self.traced {
-                Some(traced) => traced.contains(&frame),
-                None => first().is_some_and(|first| first < frame),
-            }
     }
 }
 
@@ -162,39 +189,43 @@ mod tests {
         Fault { frame, count, reason: "it is bad".to_owned() }
     }
 
-    fn told<'a>(faults: &'a [Fault], suspects: &[u64]) -> Told<'a> {
-        Told { faults: faults.iter().collect(), before: Vec::new(), suspects: suspects.to_vec() }
+    fn told<'a>(faults: &'a [Fault], foreseen: &'a [Fault]) -> Told<'a> {
+        Told { faults: faults.iter().collect(), beside: Vec::new(), foreseen: foreseen.iter().collect() }
     }
 
-    /// Frames up to the next multiple of ten take after damaged ones.
+    /// Frames up to the next multiple of ten take after damaged ones, and the two before.
     fn up_to_key(damaged: &[Range<u64>]) -> Option<BTreeSet<u64>> {
-        Some(damaged.iter().flat_map(|range| range.end..range.end.next_multiple_of(10)).collect())
+        let around = |range: &Range<u64>| range.start - 2..range.end.next_multiple_of(10);
+        Some(damaged.iter().flat_map(around).collect())
     }
 
     #[test]
     fn frames_know_of_damage_by_the_time_they_are_decoded() {
-        let mut damage = Damage::default();
+        let (first, second) = ([fault(12, 2)], [fault(12, 2), fault(25, 1)]);
+        let mut marks = Marks::default();
         for frame in 0..30 {
-            match frame {
-                12 => damage.note(told(&[fault(12, 2)], &[])),
-                // A message that is of no frame that was missed is told of late.
-                21..25 => damage.note(told(&[fault(12, 2)], &[21])),
-                25.. => damage.note(told(&[fault(12, 2), fault(21, 1)], &[])),
-                _ => {}
-            }
-            damage.note_frame(frame, (12..14).contains(&frame), up_to_key);
+            // Of the first it is heard before its frame comes, of the second only then.
+            let told = match frame {
+                0..10 => told(&[], &[]),
+                10..12 => told(&[], &first),
+                12..25 => told(&first, &first),
+                _ => told(&second, &first),
+            };
+            marks.mark(frame, [12, 13, 25].contains(&frame), &told);
         }
-        let of = |found| (0..30).filter(|frame| damage.of_frame(*frame) == found).collect::<Vec<_>>();
-        assert_eq!(of(Some(FrameDamage::Held)), [12, 13]);
-        assert_eq!(of(Some(FrameDamage::Traces)), [14, 15, 16, 17, 18, 19, 21, 22, 23, 24, 25, 26, 27, 28, 29]);
+        let found: Vec<_> = (0..30).map(|frame| marks.of_frame(frame, up_to_key)).collect();
+        let of = |wanted| (0..30).filter(|frame| found[*frame] == Some(wanted)).collect::<Vec<_>>();
+        assert_eq!(of(FrameDamage::Held), [12, 13, 25]);
+        assert_eq!(of(FrameDamage::Traces), [10, 11, 14, 15, 16, 17, 18, 19, 26, 27, 28, 29]);
+        // In any other order, the same.
+        assert!((0..30).rev().all(|frame| marks.of_frame(frame, up_to_key) == found[frame as usize]));
     }
 
     #[test]
     fn all_frames_behind_damage_are_meant_where_a_file_does_not_tell() {
-        let mut damage = Damage::default();
-        damage.note(told(&[fault(5, 1)], &[]));
-        (3..8).for_each(|frame| damage.note_frame(frame, frame == 5, |_| None));
-        let found = (3..8).map(|frame| damage.of_frame(frame)).collect::<Vec<_>>();
+        let (mut marks, faults) = (Marks::default(), [fault(5, 1)]);
+        (3..8).for_each(|frame| marks.mark(frame, frame == 5, &told(&faults, &[])));
+        let found = (3..8).map(|frame| marks.of_frame(frame, |_| None)).collect::<Vec<_>>();
         let traces = Some(FrameDamage::Traces);
         assert_eq!(found, [None, None, Some(FrameDamage::Held), traces, traces]);
     }

@@ -16,7 +16,7 @@ use cosmorama_video::{
 use thiserror::Error;
 
 use super::counted::count;
-use super::damage::{Damage, Faults, Told, may_lack, more_than, ranges};
+use super::damage::{Damage, Faults, Marks, Told, may_lack, more_than, ranges};
 use super::live::Live;
 use super::raw::{RawInfo, RawReader, aside, foreign};
 use super::{Coming, DamagedFrames, FrameDamage, FrameName, RawBytes, RawFiles, RawKind, described};
@@ -46,6 +46,8 @@ struct Source {
     count: u64,
     /// Order in which the frames of its streams are coded, once it is needed; `None` where the file does not tell.
     orders: OnceLock<Option<Vec<CodedOrder>>>,
+    /// Marks of frames under an answer to damage. Whoever looks does not wait for the decoder.
+    marks: Mutex<Marks>,
     state: Mutex<State>,
 }
 
@@ -144,7 +146,8 @@ impl Videos {
 
     /// Returns what is the matter with a frame that was decoded.
     pub(crate) fn damage(&self, name: &FrameName) -> Option<FrameDamage> {
-        self.sources().get(&name.video)?.state().damage.of_frame(name.frame)
+        let source = self.sources().get(&name.video).cloned()?;
+        lock(&source.marks).of_frame(name.frame, |damaged| source.traced(damaged))
     }
 
     /// Returns the rate; `None` if it varies, or none is said.
@@ -227,7 +230,7 @@ impl Videos {
         state.close();
         let ranged = |(first, (count, reason)): (&u64, &(u64, String))| (*first..first + count, reason.clone());
         let announced = source.count;
-        let (faults, before) = (&state.damage.faults, &state.damage.before);
+        let (faults, beside) = (&state.damage.faults, &state.damage.beside);
         let further = state.has_more.then(|| more_than(announced));
         // Frames that a cut file lacks may be counted by nobody.
         let cut = source.cut().filter(|_| faults.is_empty()).map(|CutShort { expected, found }| {
@@ -235,7 +238,7 @@ impl Videos {
         });
         let further = further.or(cut);
         let behind = further.map(|reason| (announced..announced + 1, reason));
-        let (traced, reason) = source.traces(&state, &[faults, before]);
+        let (traced, reason) = source.traces(&state, &[faults, beside]);
         let traced = traced.into_iter().map(|frames| (frames, reason.to_owned()));
         Ok(faults.iter().map(ranged).chain(traced).chain(behind).collect())
     }
@@ -319,8 +322,8 @@ impl Source {
         (damaged, threads): (Damaged, usize),
         count: u64,
     ) -> Self {
-        let (orders, state) = (OnceLock::new(), Mutex::default());
-        Self { name: video.to_owned(), content, header, damaged, threads, count, orders, state }
+        let (orders, marks, state) = (OnceLock::new(), Mutex::default(), Mutex::default());
+        Self { name: video.to_owned(), content, header, damaged, threads, count, orders, marks, state }
     }
 
     /// Returns how a video's file is cut, if it is.
@@ -393,8 +396,11 @@ impl Source {
                 return if self.damaged == Damaged::Skip { Ok(None) } else { Err(self.without(number)) };
             };
             *next = index + 1;
-            state.damage.note(reader.told());
-            state.damage.note_frame(index, condition == FrameCondition::Held, |damaged| self.traced(damaged));
+            if self.damaged != Damaged::Error {
+                let told = reader.told();
+                lock(&self.marks).mark(index, condition == FrameCondition::Held, &told);
+                state.damage.note(told);
+            }
             state.left_out.extend(first..index.min(self.count));
             if index == number {
                 if state.is_expected && state.wanted.is_empty() && number + 1 < self.count {
@@ -459,17 +465,14 @@ impl Source {
     /// Returns messages about frames that were damaged, and about those that were not announced, or may be lacking.
     fn complaints(&self) -> Vec<String> {
         let mut state = self.state();
-        let found = if state.has_more {
-            vec![more_than(self.count)]
-        } else {
-            state.close();
-            let cut = self.cut().filter(|_| state.damage.faults.is_empty() && self.damaged != Damaged::Error);
-            let cut = cut.map(|cut| may_lack(cut, state.asked.len()));
-            let (damage, count) = (&state.damage, |faults: &Faults| self.count_traces(&state, faults));
-            let of_faults = damage.complaint(self.damaged == Damaged::Skip, count);
-            [of_faults, damage.complaint_before(count), cut].into_iter().flatten().collect()
-        };
-        found.into_iter().map(|found| format!("{}: {found}", self.name.display())).collect()
+        let further = state.has_more.then(|| more_than(self.count));
+        state.close();
+        let cut = self.cut().filter(|_| state.damage.faults.is_empty() && self.damaged != Damaged::Error);
+        let cut = cut.filter(|_| further.is_none()).map(|cut| may_lack(cut, state.asked.len()));
+        let (damage, count) = (&state.damage, |faults: &Faults| self.count_traces(&state, faults));
+        let of_faults = damage.complaint(self.damaged == Damaged::Skip, count);
+        let found = [further, of_faults, damage.complaint_beside(count), cut].into_iter().flatten();
+        found.map(|found| format!("{}: {found}", self.name.display())).collect()
     }
 
     fn count_traces(&self, state: &State, faults: &Faults) -> u64 {
@@ -531,15 +534,15 @@ impl Decoder {
         match self {
             Self::Film(reader) => Told {
                 faults: reader.faults().iter().collect(),
-                before: reader.faults_before().iter().collect(),
-                suspects: reader.suspect().into_iter().collect(),
+                beside: reader.faults_beside().iter().collect(),
+                foreseen: reader.foreseen().iter().collect(),
             },
             Self::Pair(reader) => Told {
                 faults: reader.faults().collect(),
-                before: reader.faults_before().collect(),
-                suspects: reader.suspects().collect(),
+                beside: reader.faults_beside().collect(),
+                foreseen: reader.foreseen().collect(),
             },
-            Self::Raw(_) => Told { faults: Vec::new(), before: Vec::new(), suspects: Vec::new() },
+            Self::Raw(_) => Told::default(),
         }
     }
 }

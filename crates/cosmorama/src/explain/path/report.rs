@@ -1,5 +1,6 @@
 use std::f64::consts::PI;
 use std::fmt::{Display, Formatter};
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -52,17 +53,17 @@ impl PathReport {
                 shapes.push((index, shape));
             }
         }
-        let unseen: Vec<usize> = (0..DIRECTIONS).collect();
-        let parts = frames.par_iter().enumerate().fold(
-            || unseen.clone(),
-            |mut unseen, (index, views)| {
-                let shape = &shapes[shapes.partition_point(|(first, _)| *first <= index) - 1].1;
-                let near = shape.cap(views);
-                unseen.retain(|at| !(near(directions[*at]) && sees(views, directions[*at])));
-                unseen
-            },
-        );
-        let unseen = parts.reduce(|| unseen.clone(), |some, others| in_both(&some, &others));
+        let seen: Vec<AtomicBool> = directions.iter().map(|_| AtomicBool::new(false)).collect();
+        frames.par_iter().enumerate().for_each(|(index, views)| {
+            let shape = &shapes[shapes.partition_point(|(first, _)| *first <= index) - 1].1;
+            let near = shape.cap(views);
+            for (direction, seen) in directions.iter().zip(&seen) {
+                if !seen.load(Relaxed) && near(*direction) && sees(views, *direction) {
+                    seen.store(true, Relaxed);
+                }
+            }
+        });
+        let seen = seen.into_iter().filter(|seen| seen.load(Relaxed)).count();
         let centres: Vec<_> = frames.iter().flatten().filter_map(central_footprint).collect();
         let finest = centres.iter().min_by(|a, b| a.jacobian.solid_angle().total_cmp(&b.jacobian.solid_angle()));
         let advice = |source: &crate::world::Source| {
@@ -71,7 +72,7 @@ impl PathReport {
         };
         Self {
             frames: frames.len(),
-            seen: share(DIRECTIONS - unseen.len()),
+            seen: share(seen),
             at_once,
             advised: world.sources().iter().filter_map(advice).collect(),
         }
@@ -83,7 +84,7 @@ struct Shape<'a> {
     views: &'a [View],
     /// Number of directions that they show.
     seen: usize,
-    /// Middle of these in the frame of the first view, and cosine of the angle within which all of them lie.
+    /// Middle of these in the frame of the first view, and cosine of an angle within which all that is shown lies; `None` if it is not known.
     cap: Option<(DVec3, f64)>,
 }
 
@@ -94,7 +95,9 @@ impl<'a> Shape<'a> {
             .filter(|direction| sees(views, **direction))
             .map(|direction| direction.vector())
             .collect();
-        let cap = seen.iter().sum::<DVec3>().try_normalize().zip(views.first()).map(|(middle, view)| {
+        // Of thin views, too few directions tell how far they reach.
+        let views_middle = seen.iter().sum::<DVec3>().try_normalize().filter(|_| seen.len() >= ENOUGH);
+        let cap = views_middle.zip(views.first()).map(|(middle, view)| {
             let farthest = seen.iter().map(|direction| direction.dot(middle)).fold(1.0, f64::min);
             // Between directions that are tested, some may lie farther out.
             let cosine = (farthest.clamp(-1.0, 1.0).acos() + 2.0 * SPACING).min(PI).cos();
@@ -124,16 +127,14 @@ impl<'a> Shape<'a> {
 /// Angle between neighbours of the directions that are tested, in radians.
 const SPACING: f64 = 0.025;
 
+/// Number of directions that tell where a view ends.
+const ENOUGH: usize = 100;
+
 /// Angle in radians between turns that count as the same.
 const SAME: f64 = 1e-6;
 
 fn sees(views: &[View], direction: Direction) -> bool {
     views.iter().any(|view| view.sees(direction))
-}
-
-/// Returns the numbers that two ordered lists share.
-fn in_both(some: &[usize], others: &[usize]) -> Vec<usize> {
-    some.iter().copied().filter(|at| others.binary_search(at).is_ok()).collect()
 }
 
 impl Display for PathReport {
@@ -187,12 +188,15 @@ mod tests {
         let (near, far, white) =
             (perspective(45.0), perspective(80.0), Image::filled(64, 32, Rgba::opaque(1.0, 1.0, 1.0)));
         let (world, _) = World::from_panorama(white).unwrap();
+        let camera = PerspectiveCamera::new(FieldOfView::Horizontal(Angle::from_degrees(40.0)));
+        let strip = CameraModel::from(camera).view(800, 8).unwrap();
         let turns = |k: usize| [7.0 * k as f64, 20.0 * (0.4 * k as f64).sin(), 3.0 * k as f64];
         let one = |k: usize| vec![turned(if k < 9 { &near } else { &far }, turns(k))];
         // Two cameras that part: their shares differ though each is alike.
         let two = |k: usize| vec![turned(&near, turns(k)), turned(&near, [9.0 * k as f64, 0.0, 0.0])];
+        let thin = |k: usize| vec![turned(&strip, [33.0, 4.0 * k as f64, 0.0])];
         let none = |_: usize| Vec::new();
-        let makers: [&dyn Fn(usize) -> Vec<View>; 3] = [&one, &two, &none];
+        let makers: [&dyn Fn(usize) -> Vec<View>; 4] = [&one, &two, &thin, &none];
         for make in makers {
             let frames: Vec<Vec<View>> = (0..20).map(make).collect();
             let found = PathReport::of(&world, &frames);
