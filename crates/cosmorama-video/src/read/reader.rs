@@ -276,7 +276,8 @@ impl VideoReader {
 
     /// Notes damage that was found around a frame, or fails for it.
     fn foresee(&mut self, frame: u64, damage: Damage) -> Result<(), VideoError> {
-        self.looked_to = damage.last + 1;
+        // What is heard near the end of a look may be about frames behind it.
+        self.looked_to = (damage.last + 1).saturating_sub(DELAY).max(frame + 1);
         let (own, beside) = (damage.of_looked_at(&self.options).cloned(), damage.beside(frame, self.looked()));
         if self.options.damaged == Damaged::Error {
             let first = beside.and_then(|Beside { faults, traced }| Some((faults.into_iter().next()?, traced)));
@@ -340,8 +341,7 @@ impl VideoReader {
             self.tell(first, count, reason)?;
         }
         if self.options.damaged == Damaged::Hold {
-            if self.held.is_none() && self.looks_again {
-                // What is before the first frame that is asked for is held, too.
+            if self.held.is_none() && self.looks_again && first == self.first_asked() {
                 self.held = self.looked().shown_before(first)?;
             }
             if is_corrupt && self.held.is_none() {
@@ -360,6 +360,10 @@ impl VideoReader {
     /// Returns whether a frame belongs to a gap that was told already.
     fn is_told(&self, frame: u64) -> bool {
         self.faults.last().is_some_and(|fault| (fault.frame..fault.frame + fault.count).contains(&frame))
+    }
+
+    fn first_asked(&self) -> u64 {
+        self.options.frames.as_ref().map_or(0, |range| *range.start())
     }
 
     /// Returns the number behind the last frame that is asked for.
