@@ -305,7 +305,7 @@ impl Run<'_> {
 fn stale(frames: &[u64]) -> Option<Diagnostic> {
     let which = FrameList::new(frames.iter().copied());
     let message =
-        format!("{DAMAGED}: files of frames {which}, which are left out, are there from an earlier run; remove them");
+        format!("{DAMAGED}: of frames that are left out, there are files from an earlier run: {which}; remove these");
     (!frames.is_empty()).then(|| Diagnostic::warning(Code::DamagedFrames, message))
 }
 

@@ -205,17 +205,20 @@ fn the_frames_of_a_path_are_looked_at_under_an_observer_who_may_stop_that() {
     faces.size("32".parse().unwrap()).check().result.unwrap().run(&mut Quiet).unwrap();
     let angles = [90.0, 0.0, 0.0].map(|to| Ramp { from: 0.0, to });
     let turn = CameraMovement::Turn { angles, fov: None, easing: Easing::default() };
-    let domes = Conversion::new(path("{face}.png"), path("dome_##.png")).to("fulldome".parse().unwrap()).moved(turn);
-    let domes = domes.size("64".parse().unwrap()).frames(FrameList::new(1..=10));
+    let domes = Conversion::new(path("{face}.png"), path("dome_###.png")).to("fulldome".parse().unwrap()).moved(turn);
+    let domes = domes.size("64".parse().unwrap()).frames(FrameList::new(1..=400));
     let mut told = Bands::stopping_at(2.0);
-    let checked = domes.clone().check_watched(&mut told);
-    assert_eq!(checked.result.unwrap().run(&mut Quiet).unwrap().frames, 10);
+    assert!(domes.clone().check_watched(&mut told).result.is_ok());
     assert!(told.told.iter().all(|(work, _)| *work == Work::Path));
     let fractions: Vec<f64> = told.told.iter().map(|(_, fraction)| *fraction).collect();
     assert!(
         fractions.is_sorted() && fractions.first() == Some(&0.0) && fractions.last() == Some(&1.0),
         "{fractions:?}"
     );
-    let error = domes.existing(Existing::Replace).check_watched(&mut Bands::stopping_at(0.3)).result.err().unwrap();
+    assert!(fractions.len() > 10, "each frame is looked at: {fractions:?}");
+    let mut stopping = Bands::stopping_at(0.3);
+    let error = domes.check_watched(&mut stopping).result.err().unwrap();
     assert_eq!(error.code(), Code::Stopped, "{error}");
+    // Well before the last frame.
+    assert!(stopping.told.last().unwrap().1 < 0.9, "{:?}", stopping.told.last());
 }

@@ -17,8 +17,6 @@ pub(super) struct Damage {
     pub(super) faults: Faults,
     /// Damaged frames beside those that were asked for, after which some of these take.
     pub(super) beside: Faults,
-    /// Number of faults that the decoder at work has told of.
-    told: usize,
 }
 
 /// Findings of a decoder.
@@ -108,17 +106,8 @@ impl Reached {
 }
 
 impl Damage {
-    /// Notes that another decoder begins, which may tell of the same.
-    pub(super) fn begin(&mut self) {
-        self.told = 0;
-    }
-
-    /// Notes what a decoder tells.
+    /// Notes what a decoder has told by its end.
     pub(super) fn note(&mut self, Told { faults, beside, .. }: Told) {
-        if self.told == faults.len() + beside.len() {
-            return;
-        }
-        self.told = faults.len() + beside.len();
         for (known, found) in [(&mut self.faults, faults), (&mut self.beside, beside)] {
             for Fault { frame, count, reason } in found {
                 // Of two streams, or of two decoders, the longer gap.
@@ -231,10 +220,9 @@ mod tests {
     }
 
     #[test]
-    fn decoders_that_begin_anew_tell_of_the_same_damage_once() {
+    fn decoders_that_tell_of_the_same_damage_are_told_of_once() {
         let mut damage = Damage::default();
         damage.note(told(&[fault(5, 1), fault(8, 2)], &[]));
-        damage.begin();
         damage.note(told(&[fault(8, 4)], &[]));
         assert_eq!(ranges(&damage.faults).collect::<Vec<_>>(), [5..6, 8..12]);
     }

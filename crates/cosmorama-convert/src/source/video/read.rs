@@ -397,9 +397,7 @@ impl Source {
             };
             *next = index + 1;
             if self.damaged != Damaged::Error {
-                let told = reader.told();
-                lock(&self.marks).mark(index, condition == FrameCondition::Held, &told);
-                state.damage.note(told);
+                lock(&self.marks).mark(index, condition == FrameCondition::Held, &reader.told());
             }
             state.left_out.extend(first..index.min(self.count));
             if index == number {
@@ -559,7 +557,6 @@ impl State {
     fn close(&mut self) {
         if let Some((reader, _)) = self.reader.take() {
             self.damage.note(reader.told());
-            self.damage.begin();
         }
     }
 }
