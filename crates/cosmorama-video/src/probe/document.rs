@@ -42,7 +42,8 @@ impl Ffmpeg {
             is_video(found) && stream.is_none_or(|index| found["index"].as_u64() == Some(u64::from(index)))
         };
         let number = streams(&document).iter().position(is_chosen).ok_or_else(no_video)?;
-        if cut.is_some() && text(&document["format"], "format_name").is_some_and(is_matroska) {
+        let container = text(&document["format"], "format_name").unwrap_or_default();
+        if container == "avi" || cut.is_some() && is_matroska(container) {
             self.find_start(path, &mut document["streams"][number]);
         }
         let streams = streams(&document);
@@ -70,8 +71,8 @@ impl Ffmpeg {
         Ok(info)
     }
 
-    /// Replaces the start of a cut stream of Matroska by that of its first frame: ffprobe guesses it, or says none, where few are left.
-    /// What cannot be listed has no better one.
+    /// Replaces the start of a stream by that of its first frame. Of a cut Matroska, ffprobe guesses it, or says none, where few are left; of
+    /// AVI it tells when that frame is decoded. What cannot be listed has no better one.
     fn find_start(&self, path: &Path, stream: &mut Value) {
         let index = stream["index"].as_u64().and_then(|index| u32::try_from(index).ok());
         let (Some(index), Some(time_base)) = (index, ratio(stream, "time_base")) else { return };

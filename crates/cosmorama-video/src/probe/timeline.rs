@@ -160,25 +160,59 @@ impl Ffmpeg {
     /// Reads what is said of all coded frames that have a time, in the order in which they are decoded.
     pub(crate) fn coded_frames(&self, path: &Path, stream: u32, part: &[&str]) -> Result<Vec<CodedFrame>, VideoError> {
         let stream = stream.to_string();
-        let entries = ["-select_streams", &stream, "-show_entries", "packet=pts,flags", "-of", "csv=p=0"];
+        let entries = ["-select_streams", &stream, "-show_entries", "packet=pts,dts,flags", "-of", "csv=p=0"];
         let arguments = [&entries, part].concat();
-        let mut frames = Vec::new();
+        let mut packets = Vec::new();
         self.ffprobe_lines(path, &arguments, |line| {
-            let mut fields = line.split(',');
-            let time = fields.next().and_then(|time| time.parse::<i64>().ok());
-            let flags = fields.next().unwrap_or_default();
-            // D marks what is decoded for the sake of others alone.
-            let (is_key, is_shown) = (flags.contains('K'), !flags.contains('D'));
-            frames.extend(time.map(|time| CodedFrame { time, is_key, is_shown }));
-            if frames.len() > MOST_FRAMES {
+            packets.push(Packet::of_line(line));
+            if packets.len() > MOST_FRAMES {
                 let found = format!("it has more than {MOST_FRAMES} frames");
                 let expected = "fewer".to_owned();
                 return Err(VideoError::Unsupported { path: path.to_owned(), found, expected });
             }
             Ok(())
         })?;
-        Ok(frames)
+        Ok(timed(&packets))
     }
+}
+
+/// Coded frame, as ffprobe tells it.
+#[derive(Clone, Copy, Debug)]
+struct Packet {
+    shown: Option<i64>,
+    decoded: Option<i64>,
+    is_key: bool,
+    is_shown: bool,
+}
+
+impl Packet {
+    fn of_line(line: &str) -> Self {
+        let mut fields = line.split(',');
+        let mut time = || fields.next().and_then(|time| time.parse().ok());
+        let (shown, decoded) = (time(), time());
+        let flags = fields.next().unwrap_or_default();
+        // D marks what is decoded for the sake of others alone.
+        Self { shown, decoded, is_key: flags.contains('K'), is_shown: !flags.contains('D') }
+    }
+}
+
+/// Returns the coded frames that have a time. AVI and MPEG tell none of frames that are decoded before others and shown behind them: such
+/// a frame is shown when the next such is decoded. Where no frame tells a time, there is none to go by.
+fn timed(packets: &[Packet]) -> Vec<CodedFrame> {
+    if packets.iter().all(|packet| packet.shown.is_none()) {
+        return Vec::new();
+    }
+    let mut decoded = packets.iter().rev().filter_map(|packet| packet.decoded);
+    let mut next =
+        decoded.next().zip(decoded.next()).map(|(last, before)| last.saturating_add(last.saturating_sub(before)));
+    let frame = |packet: &Packet| {
+        let Packet { shown, decoded, is_key, is_shown } = *packet;
+        let time = shown.or_else(|| decoded.and_then(|decoded| next.replace(decoded)))?;
+        Some(CodedFrame { time, is_key, is_shown })
+    };
+    let mut frames: Vec<CodedFrame> = packets.iter().rev().filter_map(frame).collect();
+    frames.reverse();
+    frames
 }
 
 /// Time in which a file must be probed.
@@ -187,6 +221,19 @@ pub(super) const PATIENCE: Duration = Duration::from_secs(60);
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn frames_without_a_time_are_shown_when_the_next_such_is_decoded() {
+        let times = |lines: &[&str]| {
+            let packets: Vec<Packet> = lines.iter().map(|line| Packet::of_line(line)).collect();
+            timed(&packets).iter().map(|frame| frame.time).collect::<Vec<_>>()
+        };
+        // MPEG-4 with two B frames in AVI.
+        assert_eq!(times(&["N/A,0,K_", "N/A,1,__", "2,2,__", "3,3,__", "N/A,4,__", "5,5,__"]), [1, 4, 2, 3, 6, 5]);
+        assert_eq!(times(&["0,-1,K_", "3,0,__", "1,1,__", "2,2,_D"]), [0, 3, 1, 2]);
+        assert!(times(&["N/A,0,K_", "N/A,1,__"]).is_empty(), "none tells a time");
+        assert_eq!(times(&["0,0,K_", "N/A,N/A,__", "2,2,__"]), [0, 2]);
+    }
 
     #[test]
     fn times_and_numbers_are_each_others_inverse() {

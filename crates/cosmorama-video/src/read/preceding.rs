@@ -50,8 +50,11 @@ impl Looked<'_> {
     /// is heard before the first of them is not: damage of that key frame reaches to the next one.
     pub(super) fn damage(self, frame: u64) -> Result<Damage, VideoError> {
         let Self { ffmpeg, info, options, .. } = self;
+        let last = self.last();
+        // The time of a damaged picture may be wrong.
+        let frame = last.map_or(frame, |last| frame.min(last));
         let (start, coded) = self.start_before(frame)?;
-        let last = self.last().map_or(frame, |last| last.min(frame + PATIENCE)).max(frame);
+        let last = last.unwrap_or(frame).min(frame + PATIENCE);
         let options = ReadOptions { frames: Some(start..=last), damaged: Damaged::Skip, threads: 1, ..options.clone() };
         let mut reader = VideoReader::looking_no_further(ffmpeg, info, options)?;
         let mut is_given = false;

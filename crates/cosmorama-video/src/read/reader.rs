@@ -203,6 +203,7 @@ impl VideoReader {
 
     /// Decodes a frame into `ahead`, or finds the number of all frames.
     fn decode(&mut self, pool: &FramePool) -> Result<(), VideoError> {
+        let last = self.looked().last();
         loop {
             let Some(decoder) = &mut self.decoder else { return Ok(()) };
             let mut frame = match decoder.next(&self.info, pool)? {
@@ -213,7 +214,7 @@ impl VideoReader {
                 }
                 Next::End(ended) => return self.ended(ended),
             };
-            let index = frame.time.map_or(self.expected, |time| self.timeline.frame(time));
+            let index = number(&frame, &self.timeline, (self.expected, last));
             if index > self.expected && std::mem::take(&mut self.may_restart) {
                 // The seek has gone too far, or a frame is missing: from the beginning it is certain.
                 self.restart(None)?;
@@ -472,6 +473,15 @@ impl VideoReader {
 
 /// Reason of a frame that is missing where nothing is said of it.
 const ENDS: &str = "the video ends before it";
+
+/// Returns the number of a frame that comes where one is expected. Pictures of damaged frames may have times behind the last.
+fn number(frame: &Decoded, timeline: &Timeline, (expected, last): (u64, Option<u64>)) -> u64 {
+    let number = frame.time.map_or(expected, |time| timeline.frame(time));
+    match last.filter(|_| frame.is_corrupt) {
+        Some(last) => number.min(last.max(expected)),
+        None => number,
+    }
+}
 
 /// Returns where decoding begins for a frame to be the first.
 fn start(info: &VideoInfo, timeline: &Timeline, first: u64) -> Start {

@@ -9,7 +9,8 @@ use crate::{Ffmpeg, Timeline, VideoError, VideoInfo};
 pub struct CodedOrder {
     frames: Vec<CodedFrame>,
     timeline: Timeline,
-    /// Whether decoders hold a frame back, which they lose when the next one is damaged; that one they paint over and give.
+    /// Whether decoders hold a frame back that others may take after, and lose it when the next such frame is damaged; that one they
+    /// paint over and give.
     is_held_back: bool,
 }
 
@@ -43,14 +44,32 @@ impl CodedOrder {
         if !is_held_back {
             return traces(frames, timeline, damaged);
         }
-        let meant: Vec<_> = damaged.iter().map(|range| range.start..range.end + 1).collect();
-        let painted = shown_times(frames).into_iter().map(|time| timeline.frame(time));
-        let (ends, apart): (BTreeSet<u64>, _) = (damaged.iter().map(|range| range.end).collect(), disjoint(damaged));
-        let painted = painted.filter(|frame| ends.contains(frame));
+        let apart = disjoint(damaged);
+        let painted = painted(frames, timeline, &apart);
+        let meant: Vec<_> = painted.iter().map(|frame| *frame..frame + 1).chain(damaged.iter().cloned()).collect();
         let mut found: BTreeSet<u64> = traces(frames, timeline, &meant).into_iter().chain(painted).collect();
         found.retain(|frame| holding(&apart, *frame).is_none());
         found.into_iter().collect()
     }
+}
+
+/// Returns the frames behind damaged ones that a decoder may have painted over, while it lost those: the next that are no B frames. A B
+/// frame, which is shown before one that is decoded before it, is never held back.
+fn painted(coded: &[CodedFrame], timeline: &Timeline, damaged: &[Range<u64>]) -> Vec<u64> {
+    let mut latest = i64::MIN;
+    let mut is_after_damaged = false;
+    let mut found = Vec::new();
+    for frame in coded {
+        if frame.time < latest {
+            continue;
+        }
+        latest = frame.time;
+        let number = timeline.frame(frame.time);
+        let is_damaged = holding(damaged, number).is_some();
+        found.extend((is_after_damaged && !is_damaged && frame.is_shown).then_some(number));
+        is_after_damaged = is_damaged;
+    }
+    found
 }
 
 /// Frames among those that follow in the order of decoding that may show traces of damage.
@@ -157,6 +176,22 @@ mod tests {
         assert_eq!(found(&without(8), &[8]), [9, 10, 11, 12]);
         let hidden = coded.map(|frame| CodedFrame { is_shown: frame.time != 8, ..frame });
         assert_eq!(found(&hidden, &[3]), [1, 2, 4, 5, 6, 7]);
+    }
+
+    #[test]
+    fn a_frame_that_was_painted_over_is_the_next_that_others_take_after() {
+        let one = Ratio::parse("1/25").unwrap();
+        let even = Timeline::Even { start: 0, time_base: one, rate: one.inverse() };
+        // Key frames are 0 and 6; 4 and 5 are decoded after 6.
+        let order = [0, 3, 1, 2, 6, 4, 5, 9, 7, 8];
+        let frames = order.map(|time| CodedFrame { time, is_key: time % 6 == 0, is_shown: true }).to_vec();
+        let order = CodedOrder { frames, timeline: even, is_held_back: true };
+        let found = |damaged: u64| order.traces(&[damaged..damaged + 1]);
+        assert_eq!(found(3), [1, 2, 4, 5, 6, 7, 8, 9], "6 was painted over");
+        assert_eq!(found(0), [1, 2, 3, 4, 5]);
+        assert_eq!(found(2), [4, 5], "no frame is lost with a B frame");
+        let plain = CodedOrder { is_held_back: false, ..order.clone() };
+        assert_eq!(plain.traces(&[3..4]), [1, 2, 4, 5]);
     }
 
     #[test]

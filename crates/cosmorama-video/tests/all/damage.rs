@@ -207,6 +207,61 @@ fn damage_of_a_key_frame_is_told_of_the_frames_behind_it() {
     }
 }
 
+/// MPEG's decoders lose a frame that they hold back when the next that is no B frame is damaged, and paint that one over.
+#[test]
+fn what_a_decoder_painted_over_is_among_the_traces() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    for (name, codec) in [("a.mkv", "mpeg2video"), ("b.avi", "mpeg4")] {
+        let path = folder.path().join(name);
+        let coding = "-bf 2 -g 12 -sc_threshold 1000000000 -b:v 4M";
+        run(&format!("{} -c:v {codec} {coding}", moving(128, 64, "25", 40)), &path);
+        let whole = frames(&ffmpeg, &path, ReadOptions::default()).unwrap();
+        assert_eq!(whole.len(), 40, "{name}");
+        let bytes = std::fs::read(&path).unwrap();
+        // Key frames, one before, and a B frame.
+        for (number, last) in [(10, 23), (22, 35), (19, 35), (11, 23)] {
+            damage(&path, number);
+            let info = ffmpeg.probe(&path).unwrap();
+            let mut reader = VideoReader::open(&ffmpeg, &info, with(Damaged::Hold)).unwrap();
+            let mut wrong = Vec::new();
+            while let Some(frame) = reader.next_frame().unwrap() {
+                let is_other = frame.image != whole[frame.index as usize].image;
+                wrong.extend((frame.condition == FrameCondition::Whole && is_other).then_some(frame.index));
+            }
+            let damaged: Vec<_> = reader.faults().iter().map(|fault| fault.frame..fault.frame + fault.count).collect();
+            assert!(!damaged.is_empty(), "{name}, {number}");
+            let traces = ffmpeg.coded_order(&info).unwrap().unwrap().traces(&damaged);
+            let untold: Vec<u64> = wrong.into_iter().filter(|frame| !traces.contains(frame)).collect();
+            assert!(untold.is_empty(), "{name}, {number}: {untold:?} are wrong, and not among {traces:?}");
+            assert!(traces.iter().all(|frame| *frame <= last), "{name}, {number}: {traces:?}");
+            std::fs::write(&path, &bytes).unwrap();
+        }
+    }
+}
+
+/// Its decoder gives the picture a time behind all frames.
+#[test]
+fn the_last_frame_of_mpeg4_is_damaged() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.avi");
+    run(&format!("{} -c:v mpeg4 -bf 0 -g 12 -b:v 4M", moving(128, 64, "25", 30)), &path);
+    damage(&path, 29);
+    let read = |damaged: Damaged| {
+        let mut reader =
+            VideoReader::open(&ffmpeg, &ffmpeg.probe(&path)?, ReadOptions { threads: 1, ..with(damaged) })?;
+        let mut found = 0;
+        while reader.next_frame()?.is_some() {
+            found += 1;
+        }
+        Ok((found, reader.faults().iter().map(|fault| (fault.frame, fault.count)).collect::<Vec<_>>()))
+    };
+    assert_eq!(read(Damaged::Hold).unwrap(), (30, vec![(29, 1)]));
+    assert_eq!(read(Damaged::Skip).unwrap(), (29, vec![(29, 1)]));
+    assert!(matches!(read(Damaged::Error).unwrap_err(), VideoError::DamagedFrame { frame: 29, .. }));
+}
+
 /// Decoders that begin within a film complain of frames that lack others before that place, which is no damage. In a transport stream a
 /// seek ends anywhere, and the decoder of HEVC makes up what it lacks there.
 #[test]

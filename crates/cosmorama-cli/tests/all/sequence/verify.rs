@@ -267,6 +267,29 @@ fn no_cut_of_a_film_passes_for_a_short_film() {
     }
 }
 
+/// The last number of a film is that of its last frame, though one before it is lost.
+#[cfg(feature = "video")]
+#[test]
+fn a_transport_stream_that_lost_a_frame_keeps_its_last() {
+    if !has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    let source = "testsrc2=size=128x64:rate=25,trim=end_frame=30";
+    ffmpeg(&bench, &["-f", "lavfi", "-i", source, "-c:v", "libx264", "-bf", "0", "-g", "10", "film.ts"]);
+    let told = said(&bench, "film.ts", "v", "packet=pos");
+    let places: Vec<usize> = told.lines().filter_map(|line| line.strip_prefix("pos=")?.parse().ok()).collect();
+    let mut bytes = bench.bytes("film.ts");
+    bytes.drain(places[13]..places[14]);
+    std::fs::write(bench.path("film.ts"), bytes).unwrap();
+    let report: Value = serde_json::from_slice(&bench.run(&["verify", "film.ts", "--json"]).stdout).unwrap();
+    assert_eq!((&report["frames"], &report["frames_with_faults"]), (&json!(30), &json!("13-19")), "{report}");
+    let args = ["convert", "film.ts", "f_##.png", "--from", "equirect", "--to", "fulldome", "--size", "16"];
+    let held = bench.run(&[&args[..], &["--damaged", "hold"]].concat());
+    assert!(held.status.success() && !text(&held.stderr).contains("announced"), "{}", text(&held.stderr));
+    assert!(bench.path("f_29.png").exists());
+}
+
 /// Makes a film of 30 frames, every tenth a key frame, of which frame 13 is damaged.
 fn damaged_film(bench: &Bench) {
     let source = "testsrc2=size=256x128:rate=25,trim=end_frame=30";

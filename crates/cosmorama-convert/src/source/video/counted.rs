@@ -20,11 +20,21 @@ pub(super) fn count(ffmpeg: &Ffmpeg, info: &VideoInfo, damaged: Damaged) -> Resu
     // The times of a variable rate are listed one by one.
     let mut listed = info.clone();
     listed.is_variable = true;
-    let coded = ffmpeg.timeline(&listed)?.frames().unwrap_or_default();
+    let times = ffmpeg.timeline(&listed)?;
+    let coded = times.frames().unwrap_or_default();
     if hides_frames(info, announced.unwrap_or(coded)) {
         return Ok(coded);
     }
-    Ok(announced.filter(|frames| coded + 1 < *frames).unwrap_or(coded))
+    let last = coded.checked_sub(1).and_then(|last| times.time(last));
+    // Whether the last has the last number that is announced: then the one that is lacking was lost, and not rounded up.
+    let is_last = |frames: u64| -> Result<bool, VideoError> {
+        let Some(last) = last.filter(|_| !info.is_variable && coded + 1 == frames) else { return Ok(false) };
+        Ok(ffmpeg.timeline(info)?.frame(last) + 1 == frames)
+    };
+    match announced {
+        Some(frames) if coded + 1 < frames || is_last(frames)? => Ok(frames),
+        _ => Ok(coded),
+    }
 }
 
 /// Returns whether some of the frames that a file counts are not shown: the edit list of an MP4 that was cut without encoding it again
