@@ -19,7 +19,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 
-use crate::console::{Console, Log, VARIABLE};
+use crate::console::{Console, Log, VARIABLE, unknown_topic};
 
 #[global_allocator]
 static ALLOCATOR: allocator::Allocator = allocator::Allocator;
@@ -47,7 +47,14 @@ fn run() -> ExitCode {
 /// Returns the console with the log that is asked for. Without use for the environment's own wishes, it heeds the command line alone.
 fn console(args: &args::Args) -> Console {
     let asked = std::env::var(VARIABLE).unwrap_or_default();
-    Log::new(args.verbose, &asked, args.log_format).map(Console::new).unwrap_or_else(|error| {
+    let known = |log| {
+        let console = Console::new(log);
+        if let Some(told) = unknown_topic(&asked) {
+            console.warning(format_args!("{VARIABLE}={asked}: {told}"));
+        }
+        console
+    };
+    Log::new(args.verbose, &asked, args.log_format).map(known).unwrap_or_else(|error| {
         let console = Console::new(Log::new(args.verbose, "", args.log_format).unwrap_or_default());
         console.warning(format_args!(
             "{VARIABLE}={asked} is ignored ({error}); expected levels by topic, as in {VARIABLE}=info or \

@@ -79,6 +79,13 @@ impl Progress {
         Self { noun, form, done: 0, total, start, said: start, current: None, told: 0.0 }
     }
 
+    /// Reports that all is done where there is nothing to make, for those who wait for it.
+    pub(crate) fn begin(&mut self) {
+        if self.total == Some(0) && matches!(self.form, Form::Openjd) {
+            say("openjd_progress: 100.00".to_owned());
+        }
+    }
+
     /// Reports that a fraction of some work is done. Short work is not reported.
     pub(crate) fn advance(&mut self, work: Work, fraction: f64) {
         self.advance_at(Instant::now(), work, fraction).into_iter().for_each(say);

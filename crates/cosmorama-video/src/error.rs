@@ -90,7 +90,7 @@ pub enum VideoError {
     },
     /// A frame is damaged or missing.
     #[error(
-        "{}: frame {frame} is damaged or missing ({reason}); make the video again, or choose --damaged hold or skip",
+        "{}: frame {frame} is damaged or missing ({reason}); make the video again, or convert it with --damaged hold or skip",
         path.display()
     )]
     DamagedFrame {
@@ -103,8 +103,8 @@ pub enum VideoError {
     },
     /// There are fewer frames than the file announces.
     #[error(
-        "{}: the video ends before frame {found}, but {announced} frames were announced; make the video again, or choose --damaged hold \
-         or skip", path.display()
+        "{}: the video ends before frame {found}, but {announced} frames were announced; make the video again, or convert it with --damaged \
+         hold or skip", path.display()
     )]
     FewerFrames {
         /// The file.

@@ -27,11 +27,33 @@ const ALWAYS: &str = "cosmorama::report";
 /// Target of warnings, notes and errors.
 const TOLD: &str = "cosmorama::message";
 
+/// Targets of all records.
+const TARGETS: [&str; 10] = [
+    ALWAYS,
+    TOLD,
+    "cosmorama::input",
+    "cosmorama::projection",
+    "cosmorama::colour",
+    "cosmorama::filter",
+    "cosmorama::geometry",
+    "cosmorama::memory",
+    "cosmorama::frames",
+    "cosmorama::conversion",
+];
+
 /// Log of a run. The default one tells warnings and errors, in lines for people.
 #[derive(Clone)]
 pub(crate) struct Log {
     records: Dispatch,
     format: LogFormat,
+}
+
+/// Returns what to say of the first topic of ours that is asked for and that no record has.
+pub(crate) fn unknown_topic(asked: &str) -> Option<String> {
+    let names = asked.split(',').map(|wish| wish.split(['=', '[']).next().unwrap_or_default().trim());
+    let mut ours = names.filter(|name| name.starts_with("cosmorama::"));
+    let unknown = ours.find(|name| !TARGETS.contains(name))?;
+    Some(format!("{unknown} is no topic; expected one of {}", TARGETS.join(", ")))
 }
 
 impl Default for Log {

@@ -15,7 +15,7 @@ use anyhow::{Context, Result};
 use cosmorama_convert::{Decision, Diagnostic, Message, Outcome, Setting, Severity};
 use cosmorama_io::pending::Unfinished;
 
-pub(crate) use log::{Log, VARIABLE};
+pub(crate) use log::{Log, VARIABLE, unknown_topic};
 
 use crate::args::ProgressStyle;
 

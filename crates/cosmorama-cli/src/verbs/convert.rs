@@ -68,7 +68,7 @@ impl<'a> Watch<'a> {
 impl Observer for Watch<'_> {
     fn begin(&mut self, frames: Option<usize>) {
         self.finish();
-        self.progress = Some(Progress::new(self.style, frames));
+        self.progress.insert(Progress::new(self.style, frames)).begin();
     }
 
     fn diagnostic(&mut self, diagnostic: &Diagnostic) {

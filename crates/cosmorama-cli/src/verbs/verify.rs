@@ -5,7 +5,7 @@ use std::sync::Arc;
 use anyhow::Result;
 use cosmorama_convert::{Disk, Fault, SheetLayout, Verification, Verified, check_sheet};
 use cosmorama_io::pending::{NewFolders, Pending};
-use cosmorama_io::{Format, FrameList};
+use cosmorama_io::{Format, FrameList, is_video};
 use serde_json::{Value, json};
 
 use super::convert::Watch;
@@ -21,8 +21,7 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Result<ExitCode> {
             "a stream is not verified as it comes; write it to a file first, as frames.y4m, and verify that",
         ));
     }
-    let format = args.sheet.as_deref().map(Format::from_extension).transpose();
-    let format = format.map_err(|error| usage(error.to_string()))?;
+    let format = args.sheet.as_deref().map(sheet_format).transpose()?;
     let _folders = args.sheet.as_deref().map(|sheet| prepare_sheet(sheet, args, console)).transpose()?;
     let verification = Verification {
         pattern: &args.pattern,
@@ -45,6 +44,17 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Result<ExitCode> {
     }
     console.fail_for_engine(&format!("frames with faults: {}", verified.faulty()));
     Ok(ExitCode::FAILURE)
+}
+
+/// Returns the format of a sheet.
+fn sheet_format(sheet: &Path) -> Result<Format> {
+    Format::from_extension(sheet).map_err(|error| {
+        if is_video(sheet) {
+            let picture = sheet.with_extension("png");
+            return usage(format!("{}: a sheet is one picture; name it {}", sheet.display(), picture.display()));
+        }
+        usage(error.to_string())
+    })
 }
 
 /// Refuses to replace a frame, or a file unasked, and makes the sheet's folder. If it cannot be written there, that is told before

@@ -179,7 +179,7 @@ impl FromStr for TimeRanges {
                 if end > first {
                     return Ok(Range { first, end: Some(end) });
                 }
-                Err(format!("{part} does not end after its beginning"))
+                Err(format!("{end} is not after {first}"))
             }
         };
         text.split(',').map(range).collect::<Result<_, _>>().map(Self).map_err(fail)
@@ -274,8 +274,8 @@ mod tests {
 
     #[test]
     fn what_is_no_time() {
-        assert!(refused("00:00:02-00:00:01").contains("does not end after its beginning"));
-        assert!(refused("00:00:02-00:00:02").contains("does not end after its beginning"));
+        assert!(refused("00:00:02-00:00:01").contains("is not after 00:00:02"));
+        assert!(refused("00:00:02-00:00:02").contains("is not after 00:00:02"));
         for wrong in
             ["00:60:00", "00:00:60", "00:00:", "a:b:c", "00:00:01-5", "00:00:1.0000000001", "00:00:1.", "-0:0:1"]
         {

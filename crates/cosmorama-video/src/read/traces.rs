@@ -185,13 +185,13 @@ mod tests {
         // Key frames are 0 and 6; 4 and 5 are decoded after 6.
         let order = [0, 3, 1, 2, 6, 4, 5, 9, 7, 8];
         let frames = order.map(|time| CodedFrame { time, is_key: time % 6 == 0, is_shown: true }).to_vec();
-        let order = CodedOrder { frames, timeline: even, is_held_back: true };
-        let found = |damaged: u64| order.traces(&[damaged..damaged + 1]);
+        let order = |is_held_back| CodedOrder { frames: frames.clone(), timeline: even.clone(), is_held_back };
+        let found_by = |is_held_back, damaged: u64| order(is_held_back).traces(&vec![damaged..damaged + 1; 1]);
+        let found = |damaged| found_by(true, damaged);
         assert_eq!(found(3), [1, 2, 4, 5, 6, 7, 8, 9], "6 was painted over");
         assert_eq!(found(0), [1, 2, 3, 4, 5]);
         assert_eq!(found(2), [4, 5], "no frame is lost with a B frame");
-        let plain = CodedOrder { is_held_back: false, ..order.clone() };
-        assert_eq!(plain.traces(&[3..4]), [1, 2, 4, 5]);
+        assert_eq!(found_by(false, 3), [1, 2, 4, 5]);
     }
 
     #[test]

@@ -162,6 +162,9 @@ fn what_is_no_sequence_is_refused() {
     let bench = Bench::new();
     sequence(&bench, 2);
     assert_says(&bench.fail(2, &["verify", "dome_1.png"]), &["no frame marker", "####"]);
+    assert_says(&bench.fail(2, &["verify", "."]), &[". is a folder; ", "dome_#.png"]);
+    let film = bench.fail(2, &["verify", "dome_#.png", "--sheet", "sheet.mp4"]);
+    assert_says(&film, &["sheet.mp4: a sheet is one picture; name it sheet.png"]);
     for name in ["{face}", "%c", "{eye}", "{level}"] {
         assert_says(&bench.fail(2, &["verify", &format!("{name}_#.png")]), &[&format!("has {name}"), "by itself"]);
     }

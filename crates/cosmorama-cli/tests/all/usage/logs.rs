@@ -68,10 +68,16 @@ fn sequences_tell_of_plans_and_queues() {
     // Whatever else is said, lines for the engine begin where lines begin.
     assert_eq!(told.lines().filter(|line| line.starts_with("openjd_progress: ")).count(), 4, "{told}");
     assert_eq!(told.matches("openjd_").count(), 4, "{told}");
-    let resumed =
-        [&["convert", "sky_#.png", "dome_#.png", "--from", "equirect", "-v"][..], &TO[..4], &["--resume"]].concat();
+    let resumed = [
+        &["convert", "sky_#.png", "dome_#.png", "--from", "equirect", "-v"][..],
+        &TO[..4],
+        &["--resume", "--progress", "openjd"],
+    ]
+    .concat();
     let told = text(&bench.run(&resumed).stderr);
     assert_says(&told, &["frames: 0 frames to make, 4 outputs kept, because they are whole and made alike"]);
+    // An engine waits for the end, though there is nothing to do.
+    assert_says(&told, &["openjd_progress: 100.00\n"]);
 }
 
 #[test]
@@ -114,6 +120,16 @@ fn the_environment_chooses_by_topic_and_hides_no_warning() {
     assert_says(&warned, &["warning: --kernel and --anti-ringing have no effect"]);
     let wrong = said(&bench, &[], "cosmorama=loud");
     assert_says(&wrong, &["warning: RUST_LOG=cosmorama=loud is ignored", "RUST_LOG=info"]);
+    let unknown = said(&bench, &[], "info,cosmorama::memroy=debug");
+    assert_says(
+        &unknown,
+        &["warning: RUST_LOG=info,cosmorama::memroy=debug: cosmorama::memroy is no topic", "filter: "],
+    );
+    for topic in ["input", "projection", "colour", "filter", "geometry", "memory", "frames", "message", "report"] {
+        let told = said(&bench, &[], &format!("cosmorama::{topic}=debug"));
+        assert!(!told.contains("no topic"), "{topic}: {told}");
+        assert_eq!(told.contains(&format!("{topic}: ")), !["message", "report"].contains(&topic), "{topic}: {told}");
+    }
     let failed = bench.command(&["convert", "none.png", "out.png", "--to", "fulldome"]).env("RUST_LOG", "off").output();
     assert_says(&text(&failed.unwrap().stderr), &["error: ", "none.png"]);
 }

@@ -75,7 +75,7 @@ impl Verification<'_> {
     pub fn run(&self, files: Arc<dyn Files>, observer: &mut dyn Observer) -> Result<Verified> {
         // A decoder goes on after a frame that it leaves out.
         let files = &ChosenFiles::new(files, Choice::default(), DamagedFrames::Skip);
-        let series = series(self.pattern)?;
+        let series = series(self.pattern, files)?;
         let wanted = self.wanted(&series, files)?;
         let video = series.video().zip(files.videos());
         let count = video.map_or(Ok(None), |(video, videos)| videos.count(video))?;
@@ -160,7 +160,7 @@ impl Verification<'_> {
 }
 
 /// Returns the files of a pattern, or the video that it names.
-fn series(pattern: &Name) -> Result<ViewFiles> {
+fn series(pattern: &Name, files: &dyn Files) -> Result<ViewFiles> {
     pattern.check()?;
     if let Some(name) = NAMES.into_iter().find(|name| pattern.contains(name)) {
         return Err(usage(format!(
@@ -168,9 +168,12 @@ fn series(pattern: &Name) -> Result<ViewFiles> {
         )));
     }
     match ViewFiles::new(Path::new(pattern)) {
-        ViewFiles::One(_) => Err(usage(format!(
-            "{pattern} has no frame marker such as #### or %04d; write one where the frame number stands"
-        ))),
+        ViewFiles::One(path) => {
+            is_one_file(files, pattern, &path)?;
+            Err(usage(format!(
+                "{pattern} has no frame marker such as #### or %04d; write one where the frame number stands"
+            )))
+        }
         series => Ok(series),
     }
 }
