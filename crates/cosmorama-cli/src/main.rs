@@ -47,19 +47,21 @@ fn run() -> ExitCode {
 /// Returns the console with the log that is asked for. Without use for the environment's own wishes, it heeds the command line alone.
 fn console(args: &args::Args) -> Console {
     let asked = std::env::var(VARIABLE).unwrap_or_default();
-    let known = |log| {
-        let console = Console::new(log);
-        if let Some(told) = unknown_topic(&asked) {
-            console.warning(format_args!("{VARIABLE}={asked}: {told}"));
+    let console = |asked: &str| Log::new(args.verbose, asked, args.log_format).map(Console::new);
+    match console(&asked) {
+        Ok(console) => {
+            if let Some(told) = unknown_topic(&asked) {
+                console.warning(format_args!("{VARIABLE}={asked}: {told}"));
+            }
+            console
         }
-        console
-    };
-    Log::new(args.verbose, &asked, args.log_format).map(known).unwrap_or_else(|error| {
-        let console = Console::new(Log::new(args.verbose, "", args.log_format).unwrap_or_default());
-        console.warning(format_args!(
-            "{VARIABLE}={asked} is ignored ({error}); expected levels by topic, as in {VARIABLE}=info or \
-             {VARIABLE}=cosmorama::memory=debug"
-        ));
-        console
-    })
+        Err(error) => {
+            let console = console("").unwrap_or_else(|_| Console::new(Log::default()));
+            console.warning(format_args!(
+                "{VARIABLE}={asked} is ignored ({error}); expected levels by topic, as in {VARIABLE}=info or \
+                 {VARIABLE}=cosmorama::memory=debug"
+            ));
+            console
+        }
+    }
 }

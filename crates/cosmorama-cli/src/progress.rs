@@ -80,7 +80,7 @@ impl Progress {
     }
 
     /// Reports that all is done where there is nothing to make, for those who wait for it.
-    pub(crate) fn begin(&mut self) {
+    pub(crate) fn tell_nothing_to_do(&self) {
         if self.total == Some(0) && matches!(self.form, Form::Openjd) {
             say("openjd_progress: 100.00".to_owned());
         }

@@ -259,9 +259,8 @@ pub enum IoError {
     },
     /// Frames of a sequence are missing.
     #[error(
-        "{pattern}: {} missing: {missing}; the first that exists is {}, the last {}; make {}, or choose others with \
-         --frames",
-        counted(*count), existing.0, existing.1, if *count == 1 { "it" } else { "them" }
+        "{pattern}: {} missing: {missing}; the first that exists is {}, the last {}; {}choose others with --frames",
+        counted(*count), existing.0, existing.1, to_make(pattern, *count)
     )]
     MissingFrames {
         /// The pattern.
@@ -273,6 +272,15 @@ pub enum IoError {
         /// First and last existing frame.
         existing: (u64, u64),
     },
+}
+
+/// Returns the advice to make missing frames, except of a film.
+fn to_make(pattern: &str, count: usize) -> &'static str {
+    match count {
+        _ if is_video(Path::new(pattern)) => "",
+        1 => "make it, or ",
+        _ => "make them, or ",
+    }
 }
 
 /// Returns the expected names of a sequence, and the names of the sequence that was found instead.

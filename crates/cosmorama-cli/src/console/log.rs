@@ -27,19 +27,18 @@ const ALWAYS: &str = "cosmorama::report";
 /// Target of warnings, notes and errors.
 const TOLD: &str = "cosmorama::message";
 
+// Targets of decisions, by their topics.
+const INPUT: &str = "cosmorama::input";
+const PROJECTION: &str = "cosmorama::projection";
+const COLOUR: &str = "cosmorama::colour";
+const FILTER: &str = "cosmorama::filter";
+const GEOMETRY: &str = "cosmorama::geometry";
+const MEMORY: &str = "cosmorama::memory";
+const FRAMES: &str = "cosmorama::frames";
+const CONVERSION: &str = "cosmorama::conversion";
+
 /// Targets of all records.
-const TARGETS: [&str; 10] = [
-    ALWAYS,
-    TOLD,
-    "cosmorama::input",
-    "cosmorama::projection",
-    "cosmorama::colour",
-    "cosmorama::filter",
-    "cosmorama::geometry",
-    "cosmorama::memory",
-    "cosmorama::frames",
-    "cosmorama::conversion",
-];
+const TARGETS: [&str; 10] = [ALWAYS, TOLD, INPUT, PROJECTION, COLOUR, FILTER, GEOMETRY, MEMORY, FRAMES, CONVERSION];
 
 /// Log of a run. The default one tells warnings and errors, in lines for people.
 #[derive(Clone)]
@@ -52,7 +51,7 @@ pub(crate) struct Log {
 pub(crate) fn unknown_topic(asked: &str) -> Option<String> {
     let names = asked.split(',').map(|wish| wish.split(['=', '[']).next().unwrap_or_default().trim());
     let mut ours = names.filter(|name| name.starts_with("cosmorama::"));
-    let unknown = ours.find(|name| !TARGETS.contains(name))?;
+    let unknown = ours.find(|name| !TARGETS.iter().any(|target| target.starts_with(name)))?;
     Some(format!("{unknown} is no topic; expected one of {}", TARGETS.join(", ")))
 }
 
@@ -119,7 +118,7 @@ impl Log {
     /// Tells what was decided.
     pub(crate) fn decision(&self, topic: Topic, is_detail: bool, text: &str) {
         macro_rules! tell {
-            ($target:literal) => {
+            ($target:ident) => {
                 if is_detail {
                     tracing::debug!(target: $target, "{text}")
                 } else {
@@ -128,14 +127,14 @@ impl Log {
             };
         }
         self.on(|| match topic {
-            Topic::Input => tell!("cosmorama::input"),
-            Topic::Projection => tell!("cosmorama::projection"),
-            Topic::Colour => tell!("cosmorama::colour"),
-            Topic::Filter => tell!("cosmorama::filter"),
-            Topic::Geometry => tell!("cosmorama::geometry"),
-            Topic::Memory => tell!("cosmorama::memory"),
-            Topic::Frames => tell!("cosmorama::frames"),
-            _ => tell!("cosmorama::conversion"),
+            Topic::Input => tell!(INPUT),
+            Topic::Projection => tell!(PROJECTION),
+            Topic::Colour => tell!(COLOUR),
+            Topic::Filter => tell!(FILTER),
+            Topic::Geometry => tell!(GEOMETRY),
+            Topic::Memory => tell!(MEMORY),
+            Topic::Frames => tell!(FRAMES),
+            _ => tell!(CONVERSION),
         });
     }
 

@@ -68,7 +68,7 @@ impl<'a> Watch<'a> {
 impl Observer for Watch<'_> {
     fn begin(&mut self, frames: Option<usize>) {
         self.finish();
-        self.progress.insert(Progress::new(self.style, frames)).begin();
+        self.progress.insert(Progress::new(self.style, frames)).tell_nothing_to_do();
     }
 
     fn diagnostic(&mut self, diagnostic: &Diagnostic) {

@@ -222,7 +222,7 @@ impl Checked {
         if remade > 0 {
             message += &format!(", {} made anew, because something else is there", counted(remade, "output"));
         }
-        let Space { all, free, .. } = Space::of(&self.job, self.settings.compression);
+        let Space { all, free, .. } = Space::of(&self.job, &self.settings);
         let each = if outputs.go_on { " a frame" } else { "" };
         message += &format!("; about {}{each} of disk", human(all));
         message += &free.map_or_else(String::new, |free| format!(", of which {} are free", human(free)));

@@ -36,11 +36,19 @@ pub struct Report {
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Frames beyond those that were known at the beginning, with their files.
+/// Frames beyond those that were known at the beginning, with their files, and frames of those that were left out.
 #[derive(Debug, Default)]
 pub(crate) struct Further {
     pub(super) frames: usize,
     pub(super) files: Vec<PathBuf>,
+    pub(super) left_out: LeftOut,
+}
+
+/// Frames that were not made, since their input's are damaged, with the files that they would have.
+#[derive(Debug, Default)]
+pub(crate) struct LeftOut {
+    pub(super) frames: usize,
+    pub(super) files: BTreeSet<PathBuf>,
 }
 
 impl Report {
@@ -51,10 +59,11 @@ impl Report {
         stages: &Stages,
         diagnostics: Vec<Diagnostic>,
     ) -> Self {
+        let known = outputs.paths().filter(|path| !further.left_out.files.contains(*path));
         Self {
             inputs: inputs.into_iter().collect(),
-            outputs: outputs.paths().map(Path::to_owned).chain(further.files).collect(),
-            frames: outputs.frames.len() + further.frames,
+            outputs: known.map(Path::to_owned).chain(further.files).collect(),
+            frames: (outputs.frames.len() + further.frames).saturating_sub(further.left_out.frames),
             skipped: outputs.skipped,
             remade: outputs.resumed.remade.clone(),
             wall,

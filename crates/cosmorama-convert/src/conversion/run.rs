@@ -10,7 +10,7 @@ use cosmorama_spec::Spec;
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
-use super::report::Further;
+use super::report::{Further, LeftOut};
 use super::{Checked, Observer, Report, Stop, Work, decisions, threads, videos, watched};
 use crate::diagnostic::{Code, ConvertError, DAMAGED, DEPTH, Diagnostic, Result, SCALE};
 use crate::engine::unfiltered::{OutputFile, formula, st_map};
@@ -122,6 +122,7 @@ impl Checked {
             is_first: true,
             done: 0,
             files: Vec::new(),
+            left_out: LeftOut::default(),
             stale: Vec::new(),
         };
         run.tell(engine.told());
@@ -157,15 +158,20 @@ impl Checked {
         let told =
             lit.iter().filter_map(|report| too_bright((job, output), (report.frame, report.level), report.overflowed));
         run.tell(told.chain(lit.first().and_then(|report| fitted(job, output, report.scale))).collect());
-        let further = Further { frames: run.done.saturating_sub(job.outputs.frames.len()), files: run.files };
+        let frames = run.done.saturating_sub(job.outputs.frames.len());
+        let further = Further { frames, files: run.files, left_out: run.left_out };
         Ok((lit, interpolated, estimated, further))
     }
 }
 
 /// Returns the warnings about damaged frames of videos in place of which others were shown.
 fn damaged_frames(job: &ConvertJob) -> Vec<Diagnostic> {
-    let complaints = job.layers().filter_map(|layer| layer.files.videos()).flat_map(Videos::complaints);
-    complaints.map(|message| Diagnostic::warning(Code::DamagedFrames, message)).collect()
+    let makes_film = job.target.format.is_video();
+    let videos = job.layers().filter_map(|layer| layer.files.videos());
+    videos
+        .flat_map(|videos| videos.complaints(makes_film))
+        .map(|message| Diagnostic::warning(Code::DamagedFrames, message))
+        .collect()
 }
 
 /// Figures of maps of light, differences of interpolated ones, the memory that was expected to be needed, and frames of a stream after
@@ -230,6 +236,7 @@ struct Run<'a> {
     done: usize,
     /// Files of frames that were not known at the beginning.
     files: Vec<PathBuf>,
+    left_out: LeftOut,
     /// Frames that are left out, though there are files in their places.
     stale: Vec<u64>,
 }
@@ -275,7 +282,11 @@ impl Watcher for Run<'_> {
     }
 
     fn left_out(&mut self, frame: &FrameOutputs) {
-        let is_there = !self.job.target.format.is_video() && frame.files.iter().any(|(_, path)| path.exists());
+        let has_files = !self.job.target.format.is_video();
+        let files = frame.files.iter().filter(|_| has_files).map(|(_, path)| path.clone());
+        self.left_out.frames += 1;
+        self.left_out.files.extend(files);
+        let is_there = has_files && frame.files.iter().any(|(_, path)| path.exists());
         self.stale.extend(frame.frame.filter(|_| is_there));
     }
 

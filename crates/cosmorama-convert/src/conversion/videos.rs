@@ -1,5 +1,6 @@
 //! Videos that a conversion makes: what is known of them before their first frame.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use crate::diagnostic::{Code, DAMAGED, Diagnostic, Result};
@@ -25,6 +26,26 @@ pub(super) fn idle(settings: &Conversion, job: &ConvertJob) -> Option<Diagnostic
         )
     };
     is_idle.then(|| Diagnostic::warning(Code::NoEffect, message()))
+}
+
+/// Returns the warnings about films whose rate varies, of which pictures are made: they have no times.
+pub(super) fn without_times(job: &ConvertJob) -> Result<Vec<Diagnostic>> {
+    let is_sequence = job.outputs.count() != Some(1) && !job.target.format.is_video();
+    let films = job.input.present().filter_map(|(view, ..)| view.files.video()).filter(|_| is_sequence);
+    let films: BTreeSet<&Path> = films.collect();
+    let mut told = Vec::new();
+    for film in films {
+        let varies = job.files.videos().map_or(Ok(false), |videos| videos.varies(film))?;
+        let message = || {
+            format!(
+                "{}: its rate varies, and numbered pictures have no times: a film of them at one rate leaves its sound; write \
+                 a film at once to keep both",
+                film.display()
+            )
+        };
+        told.extend(varies.then(|| Diagnostic::warning(Code::FrameRate, message())));
+    }
+    Ok(told)
 }
 
 /// Starts the encoders of the videos that are made.

@@ -298,7 +298,7 @@ impl ConvertJob {
         job.leave_finished(settings, purpose)?;
         warnings.extend(job.outputs.warnings());
         warnings.extend(frames_beside_turn(&job));
-        warnings.extend(Space::of(&job, settings.compression).warning(&job.outputs));
+        warnings.extend(Space::of(&job, settings).warning(&job.outputs));
         job.check_scale()?;
         if content.has_files() {
             let first = job.input.frames.first().map_or_else(Vec::new, |frame| job.input.paths(*frame));

@@ -93,7 +93,7 @@ fn find_in(
         return match wanted {
             Some(_) => Err(usage(format!(
                 "{FRAMES} is given, but the input has no frame marker such as #### or %04d; write one where the frame number \
-                 stands, or leave {FRAMES} out"
+                 stands, or leave {FRAMES} out; where the camera moves (--yaw A..B, --path), a still picture has frames"
             ))),
             None => Ok(vec![None]),
         };

@@ -16,6 +16,8 @@ pub(crate) enum Event {
     Frame(Option<i64>),
     /// The next frame was decoded with errors.
     Corrupt,
+    /// A part of the stream with this number is lost or damaged, as its container tells.
+    CorruptPacket(u32),
     /// A message of an error.
     Complaint(String),
 }
@@ -93,14 +95,22 @@ const CONSEQUENCES: [&str; 6] = [
 const LEVELS: [&str; 3] = ["[error] ", "[fatal] ", "[panic] "];
 
 /// Messages of the level of errors that are about nothing that is seen: pictures that a broken link or an early start takes away
-/// are dropped, and then missed by their numbers.
-const HARMLESS: [&str; 3] = ["co located POCs unavailable", "mmco: unref short failure", "Last message repeated"];
+/// are dropped, and then missed by their numbers; of two pictures of one time, the second is told of.
+const HARMLESS: [&str; 4] = [
+    "co located POCs unavailable",
+    "mmco: unref short failure",
+    "Last message repeated",
+    "non monotonically increasing dts to muxer",
+];
 
 /// Returns the events that a line tells, in their order; none for other messages.
 fn told_by(line: &str) -> Vec<Event> {
     // First, since names of files are part of it, and may look like anything.
     if line.contains("corrupt decoded frame") {
         return vec![Event::Corrupt];
+    }
+    if let Some((_, stream)) = line.rsplit_once("corrupt input packet in stream ") {
+        return stream.trim().parse().map(Event::CorruptPacket).into_iter().collect();
     }
     let (words, time) = frame(line).map_or((line, None), |(before, time)| (before, Some(time)));
     let is_error = LEVELS.iter().any(|level| words.contains(level));
@@ -146,6 +156,8 @@ mod tests {
         assert_eq!(event("c=1\n"), None);
         let damaged = "[warning] a.mov: corrupt decoded frame in stream 0";
         assert_eq!(event(damaged), Some(Event::Corrupt));
+        let packet = "[warning] a.ts: corrupt input packet in stream 3\n";
+        assert_eq!(event(packet), Some(Event::CorruptPacket(3)));
         let error = event("[png @ 0x55db] [error] chunk too big\n");
         assert_eq!(error, Some(Event::Complaint("chunk too big".to_owned())));
         assert_eq!(event("[swscaler @ 0x55db] [warning] deprecated pixel format used"), None);

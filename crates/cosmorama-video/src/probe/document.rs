@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use super::first_frame::FirstFrame;
 use super::stream::{Stream, ratio, text};
-use super::timeline::PATIENCE;
+use super::timeline::{CodedStream, PATIENCE};
 use super::{Announced, AnnouncedBy, CutShort, OtherStream, StreamKind, VideoInfo, is_boxes, structure};
 use crate::ffmpeg::Said;
 use crate::{Ffmpeg, SpatialTags, VideoError};
@@ -42,7 +42,8 @@ impl Ffmpeg {
             is_video(found) && stream.is_none_or(|index| found["index"].as_u64() == Some(u64::from(index)))
         };
         let number = streams(&document).iter().position(is_chosen).ok_or_else(no_video)?;
-        let container = text(&document["format"], "format_name").unwrap_or_default();
+        let container = text(&document["format"], "format_name").unwrap_or_default().to_owned();
+        let container = container.as_str();
         if container == "avi" || cut.is_some() && is_matroska(container) {
             self.find_start(path, &mut document["streams"][number]);
         }
@@ -57,9 +58,13 @@ impl Ffmpeg {
         let format = &document["format"];
         let others = streams.iter().enumerate().filter(|(index, _)| *index != number);
         let others = others.map(|(_, stream)| other(stream)).collect::<Vec<_>>();
-        let mut info = stream.into_info(path, text(format, "format_name").unwrap_or_default());
+        let mut info = stream.into_info(path, container);
         info.chapters = document["chapters"].as_array().map_or(0, Vec::len);
-        info.file_start = text(format, "start_time").and_then(|time| time.parse().ok()).unwrap_or(0.0);
+        info.file_start = match container {
+            // Its sound begins with the first frame, whatever the times of these.
+            "avi" => info.start as f64 * info.time_base.to_f64(),
+            _ => text(format, "start_time").and_then(|time| time.parse().ok()).unwrap_or(0.0),
+        };
         info.metadata = metadata(format);
         info.timecode = timecode(&streams[number], streams, format);
         info.cut = cut;
@@ -76,7 +81,8 @@ impl Ffmpeg {
     fn find_start(&self, path: &Path, stream: &mut Value) {
         let index = stream["index"].as_u64().and_then(|index| u32::try_from(index).ok());
         let (Some(index), Some(time_base)) = (index, ratio(stream, "time_base")) else { return };
-        if let Some(first) = self.first_times(path, index).ok().and_then(|times| times.first().copied()) {
+        let coded = CodedStream { index, codec: text(stream, "codec_name").unwrap_or_default() };
+        if let Some(first) = self.first_times(path, coded).ok().and_then(|times| times.first().copied()) {
             stream["start_pts"] = Value::from(first);
             stream["start_time"] = Value::from((first as f64 * time_base.to_f64()).to_string());
         }

@@ -75,8 +75,10 @@ pub struct VideoInfo {
     pub metadata: Vec<(String, String)>,
     /// Bytes that the file lacks by its own account.
     pub cut: Option<CutShort>,
-    /// Seconds at which the file begins, from which ffmpeg counts when it seeks.
+    /// Seconds at which the file begins, from which ffmpeg counts when it seeks; in AVI, those of the first frame.
     pub(crate) file_start: f64,
+    /// Frames that a decoder keeps back, to give them in the order in which they are shown.
+    pub(crate) delay: u64,
     /// Statements about the file that a user should hear, such as "no matrix is said; taken for BT.709"; a sentence each.
     pub notes: Vec<String>,
 }

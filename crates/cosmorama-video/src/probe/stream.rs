@@ -15,6 +15,9 @@ use crate::{
 /// Columns or rows of a video at most.
 const LONGEST: u64 = 1 << 16;
 
+/// Frames that a decoder keeps back at most.
+const MOST_DELAY: u64 = 16;
+
 /// A stream of video that can be read.
 pub(super) struct Stream<'a> {
     value: &'a Value,
@@ -105,6 +108,7 @@ impl<'a> Stream<'a> {
             metadata: Vec::new(),
             cut: None,
             file_start: 0.0,
+            delay: value["has_b_frames"].as_u64().unwrap_or(0).min(MOST_DELAY),
             notes: Vec::new(),
         }
     }

@@ -135,7 +135,7 @@ impl Ffmpeg {
     pub(super) fn begins_evenly(&self, info: &VideoInfo) -> Result<bool, VideoError> {
         /// Frames at the end of those that are read, or that are left of a cut file, before which others may come.
         const UNSURE: usize = 20;
-        let times = self.first_times(&info.path, info.stream)?;
+        let times = self.first_times(&info.path, CodedStream::of(info))?;
         let is_whole = times.len() < 100 && info.cut.is_none();
         let sure = times.len().saturating_sub(if is_whole { 0 } else { UNSURE });
         let even = Timeline::Even { start: info.start, time_base: info.time_base, rate: info.rate };
@@ -144,23 +144,22 @@ impl Ffmpeg {
 
     /// Reads the times of all coded frames that are shown, in their order.
     pub(crate) fn packet_times(&self, info: &VideoInfo) -> Result<Vec<i64>, VideoError> {
-        self.times_of(&info.path, info.stream, &[])
+        Ok(shown_times(&self.coded_frames(info, &[])?))
     }
 
     /// Reads the times of the first coded frames that are shown, up to 120, in their order.
-    pub(super) fn first_times(&self, path: &Path, stream: u32) -> Result<Vec<i64>, VideoError> {
-        self.times_of(path, stream, &["-read_intervals", "%+#120"])
-    }
-
-    fn times_of(&self, path: &Path, stream: u32, part: &[&str]) -> Result<Vec<i64>, VideoError> {
-        let coded = self.coded_frames(path, stream, part)?;
-        Ok(shown_times(&coded))
+    pub(super) fn first_times(&self, path: &Path, stream: CodedStream) -> Result<Vec<i64>, VideoError> {
+        Ok(shown_times(&self.coded_frames_of(path, stream, &["-read_intervals", "%+#120"])?))
     }
 
     /// Reads what is said of all coded frames that have a time, in the order in which they are decoded.
-    pub(crate) fn coded_frames(&self, path: &Path, stream: u32, part: &[&str]) -> Result<Vec<CodedFrame>, VideoError> {
-        let stream = stream.to_string();
-        let entries = ["-select_streams", &stream, "-show_entries", "packet=pts,dts,flags", "-of", "csv=p=0"];
+    pub(crate) fn coded_frames(&self, info: &VideoInfo, part: &[&str]) -> Result<Vec<CodedFrame>, VideoError> {
+        self.coded_frames_of(&info.path, CodedStream::of(info), part)
+    }
+
+    fn coded_frames_of(&self, path: &Path, stream: CodedStream, part: &[&str]) -> Result<Vec<CodedFrame>, VideoError> {
+        let index = stream.index.to_string();
+        let entries = ["-select_streams", &index, "-show_entries", "packet=pts,dts,flags", "-of", "csv=p=0"];
         let arguments = [&entries, part].concat();
         let mut packets = Vec::new();
         self.ffprobe_lines(path, &arguments, |line| {
@@ -172,8 +171,27 @@ impl Ffmpeg {
             }
             Ok(())
         })?;
-        Ok(timed(&packets))
+        let are_told = packets.iter().any(|packet| packet.shown.is_some());
+        Ok(if are_told || is_mpeg(stream.codec) { timed(&packets) } else { Vec::new() })
     }
+}
+
+/// Stream of a file.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct CodedStream<'a> {
+    pub(super) index: u32,
+    pub(super) codec: &'a str,
+}
+
+impl<'a> CodedStream<'a> {
+    fn of(info: &'a VideoInfo) -> Self {
+        Self { index: info.stream, codec: &info.codec }
+    }
+}
+
+/// Returns whether a codec is one of MPEG's first, whose B frames are decoded when they are shown. H.264 has others.
+fn is_mpeg(codec: &str) -> bool {
+    ["mpeg1video", "mpeg2video", "mpeg4"].contains(&codec)
 }
 
 /// Coded frame, as ffprobe tells it.
@@ -196,19 +214,20 @@ impl Packet {
     }
 }
 
-/// Returns the coded frames that have a time. AVI and MPEG tell none of frames that are decoded before others and shown behind them: such
-/// a frame is shown when the next such is decoded. Where no frame tells a time, there is none to go by.
+/// Returns the coded frames that have a time. AVI and MPEG's own streams tell none of some frames that are decoded before others and shown
+/// behind them: such a frame is shown when the next that is no B frame is decoded. Behind the last of them, that is a guess.
 fn timed(packets: &[Packet]) -> Vec<CodedFrame> {
-    if packets.iter().all(|packet| packet.shown.is_none()) {
-        return Vec::new();
-    }
     let mut decoded = packets.iter().rev().filter_map(|packet| packet.decoded);
-    let mut next =
-        decoded.next().zip(decoded.next()).map(|(last, before)| last.saturating_add(last.saturating_sub(before)));
+    let last_two = decoded.next().zip(decoded.next());
+    let mut next = last_two.map(|(last, before)| last.saturating_add(last.saturating_sub(before)));
     let frame = |packet: &Packet| {
         let Packet { shown, decoded, is_key, is_shown } = *packet;
-        let time = shown.or_else(|| decoded.and_then(|decoded| next.replace(decoded)))?;
-        Some(CodedFrame { time, is_key, is_shown })
+        let time = shown.or(decoded.and(next));
+        // B frames are shown when they are decoded.
+        if decoded.is_some() && shown != decoded {
+            next = decoded;
+        }
+        Some(CodedFrame { time: time?, is_key, is_shown })
     };
     let mut frames: Vec<CodedFrame> = packets.iter().rev().filter_map(frame).collect();
     frames.reverse();
@@ -231,7 +250,10 @@ mod tests {
         // MPEG-4 with two B frames in AVI.
         assert_eq!(times(&["N/A,0,K_", "N/A,1,__", "2,2,__", "3,3,__", "N/A,4,__", "5,5,__"]), [1, 4, 2, 3, 6, 5]);
         assert_eq!(times(&["0,-1,K_", "3,0,__", "1,1,__", "2,2,_D"]), [0, 3, 1, 2]);
-        assert!(times(&["N/A,0,K_", "N/A,1,__"]).is_empty(), "none tells a time");
+        assert_eq!(times(&["N/A,0,K_", "N/A,1,__", "N/A,2,__"]), [1, 2, 3], "there may have been B frames");
+        // MPEG's own streams tell most times.
+        let stream = ["1,0,K_", "4,1,__", "2,2,__", "3,3,__", "N/A,4,__", "5,5,__", "6,6,__", "10,7,__"];
+        assert_eq!(times(&stream), [1, 4, 2, 3, 7, 5, 6, 10]);
         assert_eq!(times(&["0,0,K_", "N/A,N/A,__", "2,2,__"]), [0, 2]);
     }
 

@@ -48,6 +48,8 @@ pub(super) struct Decoded {
     pub(super) is_corrupt: bool,
     /// First message of an error before the frame.
     pub(super) complaint: Option<String>,
+    /// Frames of which one is meant, from this one on.
+    pub(super) meant: u64,
 }
 
 /// End of the frames.
@@ -112,13 +114,22 @@ impl Decoder {
     /// Returns the next frame, or how the frames have ended.
     pub(super) fn next(&mut self, info: &VideoInfo, pool: &FramePool) -> Result<Next, VideoError> {
         let Some(image) = self.image(info, pool)? else { return self.end() };
-        let (mut is_corrupt, mut complaint) = (false, None);
+        let (mut is_corrupt, mut complaint, mut meant) = (false, None, 1);
         let is_before = self.is_partial && !self.has_begun;
         let time = loop {
             match self.log.next() {
                 Some(Event::Frame(time)) => break time,
-                Some(Event::Corrupt | Event::Complaint(_)) if is_before => self.is_doubtful = true,
+                Some(Event::Corrupt | Event::Complaint(_) | Event::CorruptPacket(_)) if is_before => {
+                    self.is_doubtful = true
+                }
                 Some(Event::Corrupt) => is_corrupt = true,
+                // Not always does its decoder complain, too, and not always is the picture another one.
+                Some(Event::CorruptPacket(stream)) if stream == info.stream => {
+                    // It is of a frame that is read now: those that are kept back come before it, and one is in the parser.
+                    meant = info.delay + 2;
+                    complaint.get_or_insert_with(|| "a part of it is lost or damaged".to_owned());
+                }
+                Some(Event::CorruptPacket(_)) => {}
                 Some(Event::Complaint(text)) => {
                     is_corrupt |= self.is_painted;
                     complaint.get_or_insert(text);
@@ -127,7 +138,7 @@ impl Decoder {
             }
         };
         self.has_begun = true;
-        Ok(Next::Frame(Decoded { image, time, is_corrupt, complaint }))
+        Ok(Next::Frame(Decoded { image, time, is_corrupt, complaint, meant }))
     }
 
     /// Returns once whether something was heard before the first frame that is wanted.

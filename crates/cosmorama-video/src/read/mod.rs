@@ -41,6 +41,13 @@ impl Default for ReadOptions {
 }
 
 impl ReadOptions {
+    /// Returns whether somebody looks at one of these frames.
+    fn looks_at_any(&self, frames: &Range<u64>) -> bool {
+        let (first, last) = self.frames.as_ref().map_or((0, u64::MAX), |range| (*range.start(), *range.end()));
+        let (first, last) = (first.max(frames.start), last.min(frames.end.saturating_sub(1)));
+        first <= last && self.looked_at.as_ref().is_none_or(|looked_at| looked_at.range(first..=last).next().is_some())
+    }
+
     /// Returns whether somebody looks at a frame.
     fn looks_at(&self, frame: u64) -> bool {
         self.frames.as_ref().is_none_or(|frames| frames.contains(&frame))

@@ -7,7 +7,7 @@ use cosmorama::raster::EncodedImage;
 use super::reader::MARGIN;
 use super::{CodedOrder, Damaged, Fault, ReadOptions, VideoReader};
 use crate::probe::CodedFrame;
-use crate::{Ffmpeg, Timeline, VideoError, VideoInfo};
+use crate::{AnnouncedBy, Ffmpeg, Timeline, VideoError, VideoInfo};
 
 /// A video in which damage is looked for.
 #[derive(Clone, Copy)]
@@ -21,6 +21,8 @@ pub(super) struct Looked<'a> {
 /// Damage around a frame, found by decoding once more. Messages alone do not tell: decoders complain of frames that lack others before the
 /// place where they began, too, and of frames that come later.
 pub(super) struct Damage {
+    /// The frame.
+    pub(super) frame: u64,
     /// Frame from which was decoded: a key frame, if the file tells of any.
     pub(super) start: u64,
     /// Frame up to which was decoded.
@@ -50,12 +52,13 @@ impl Looked<'_> {
     /// is heard before the first of them is not: damage of that key frame reaches to the next one.
     pub(super) fn damage(self, frame: u64) -> Result<Damage, VideoError> {
         let Self { ffmpeg, info, options, .. } = self;
-        let last = self.last();
         // The time of a damaged picture may be wrong.
-        let frame = last.map_or(frame, |last| frame.min(last));
+        let frame = self.sure_last().map_or(frame, |last| frame.min(last));
         let (start, coded) = self.start_before(frame)?;
-        let last = last.unwrap_or(frame).min(frame + PATIENCE);
-        let options = ReadOptions { frames: Some(start..=last), damaged: Damaged::Skip, threads: 1, ..options.clone() };
+        let last = self.last().map_or(frame, |last| last.min(frame + PATIENCE)).max(frame);
+        let frames = Some(start..=last);
+        let all = ReadOptions { frames, looked_at: None, ..options.clone() };
+        let options = ReadOptions { damaged: Damaged::Skip, threads: 1, ..all };
         let mut reader = VideoReader::looking_no_further(ffmpeg, info, options)?;
         let mut is_given = false;
         loop {
@@ -66,7 +69,7 @@ impl Looked<'_> {
                 Err(error) => return Err(error),
             }
         }
-        Ok(Damage { start, last, is_given, faults: reader.faults().to_vec(), coded })
+        Ok(Damage { frame, start, last, is_given, faults: reader.faults().to_vec(), coded })
     }
 
     /// Decodes the frame that is shown before one, with others in the places of damaged ones; `None` if there is none.
@@ -74,7 +77,8 @@ impl Looked<'_> {
         let Some(before) = frame.checked_sub(1) else { return Ok(None) };
         let (start, _) = self.start_before(frame)?;
         let frames = Some(start..=before);
-        let options = ReadOptions { frames, damaged: Damaged::Hold, threads: 1, ..self.options.clone() };
+        let all = ReadOptions { frames, looked_at: None, ..self.options.clone() };
+        let options = ReadOptions { damaged: Damaged::Hold, threads: 1, ..all };
         let mut reader = VideoReader::looking_no_further(self.ffmpeg, self.info, options)?;
         let mut shown = None;
         while let Some(frame) = reader.next_frame()? {
@@ -83,7 +87,13 @@ impl Looked<'_> {
         Ok(shown)
     }
 
-    /// Returns the number of the last frame, if it is known.
+    /// Returns the number of the last frame, if the file lists or counts them: a duration may be rounded.
+    pub(super) fn sure_last(self) -> Option<u64> {
+        let counted = self.info.announced.filter(|announced| announced.by == AnnouncedBy::Count);
+        self.timeline.frames().or(counted.map(|announced| announced.frames))?.checked_sub(1)
+    }
+
+    /// Returns the number of the last frame, as far as it is known.
     pub(super) fn last(self) -> Option<u64> {
         let announced = self.info.announced.map(|announced| announced.frames);
         self.timeline.frames().or(announced)?.checked_sub(1)
@@ -95,7 +105,7 @@ impl Looked<'_> {
         let mut coded = self.around(frame)?;
         let mut keys = self.keys_before(&coded, frame);
         if keys.len() < 2 && self.timeline.time(0) != coded.iter().map(|coded| coded.time).min() {
-            coded = ffmpeg.coded_frames(&info.path, info.stream, &[])?;
+            coded = ffmpeg.coded_frames(info, &[])?;
             keys = self.keys_before(&coded, frame);
         }
         Ok((if keys.len() < 2 { 0 } else { keys[keys.len() - 2] }, coded))
@@ -110,7 +120,7 @@ impl Looked<'_> {
         let Some(time) = self.timeline.time(frame) else { return Ok(Vec::new()) };
         let seconds = time as f64 * self.info.time_base.to_f64();
         let part = format!("{:.3}%{:.3}", (seconds - MARGIN - BEFORE).max(0.0), (seconds + BEHIND).max(0.0));
-        self.ffmpeg.coded_frames(&self.info.path, self.info.stream, &["-read_intervals", &part])
+        self.ffmpeg.coded_frames(self.info, &["-read_intervals", &part])
     }
 
     /// Returns the numbers of the key frames before a frame, in order.
@@ -135,13 +145,13 @@ impl Damage {
     }
 
     /// Returns the damage beside the frames that are looked at, if one of these may show traces of it.
-    pub(super) fn beside(&self, frame: u64, looked: Looked) -> Option<Beside> {
+    pub(super) fn beside(&self, looked: Looked) -> Option<Beside> {
         let Looked { info, timeline, options, .. } = looked;
         let is_beside = |fault: &&Fault| !frames(fault).any(|frame| options.looks_at(frame));
         let faults: Vec<Fault> = self.faults.iter().filter(is_beside).cloned().collect();
         let damaged: Vec<_> = faults.iter().map(frames).collect();
         let all = if self.coded.is_empty() && !faults.is_empty() {
-            vec![frame]
+            vec![self.frame]
         } else {
             CodedOrder::new(self.coded.clone(), timeline.clone(), info).traces(&damaged)
         };

@@ -53,6 +53,8 @@ struct Ahead {
 #[derive(Debug)]
 struct Complaint {
     frame: u64,
+    /// Frames of which one is meant, from that one on.
+    meant: u64,
     text: String,
 }
 
@@ -203,7 +205,6 @@ impl VideoReader {
 
     /// Decodes a frame into `ahead`, or finds the number of all frames.
     fn decode(&mut self, pool: &FramePool) -> Result<(), VideoError> {
-        let last = self.looked().last();
         loop {
             let Some(decoder) = &mut self.decoder else { return Ok(()) };
             let mut frame = match decoder.next(&self.info, pool)? {
@@ -214,14 +215,15 @@ impl VideoReader {
                 }
                 Next::End(ended) => return self.ended(ended),
             };
-            let index = number(&frame, &self.timeline, (self.expected, last));
+            let is_doubtful = decoder.take_doubt();
+            let index = self.number(&frame);
             if index > self.expected && std::mem::take(&mut self.may_restart) {
                 // The seek has gone too far, or a frame is missing: from the beginning it is certain.
                 self.restart(None)?;
                 continue;
             }
             let has_sought = std::mem::take(&mut self.may_restart);
-            if decoder.take_doubt() && std::mem::take(&mut self.may_look_before) {
+            if is_doubtful && std::mem::take(&mut self.may_look_before) {
                 let from = self.look_before()?;
                 if has_sought {
                     // Some decoders make up frames that they lack: decoding begins again, farther before.
@@ -236,7 +238,7 @@ impl VideoReader {
             if let Some(text) = frame.complaint.take() {
                 self.look_ahead(index)?;
                 // The first names the cause.
-                self.complaint.get_or_insert(Complaint { frame: index, text });
+                self.complaint.get_or_insert(Complaint { frame: index, meant: frame.meant, text });
             }
             if index < self.expected {
                 self.tell(index, 1, "a second picture has its time".to_owned())?;
@@ -244,6 +246,15 @@ impl VideoReader {
             }
             self.ahead = Some(Ahead { index, frame });
             return self.settle(index);
+        }
+    }
+
+    /// Returns the number of a frame. A damaged one may have a time behind the last.
+    fn number(&self, frame: &Decoded) -> u64 {
+        let number = frame.time.map_or(self.expected, |time| self.timeline.frame(time));
+        match self.looked().sure_last().filter(|_| frame.is_corrupt) {
+            Some(last) => number.min(last),
+            None => number,
         }
     }
 
@@ -262,7 +273,7 @@ impl VideoReader {
         let damage = self.looked().damage(first)?;
         self.own = damage.of(first).filter(|_| !damage.is_given).cloned();
         let from = damage.start;
-        self.foresee(first, damage)?;
+        self.foresee(damage)?;
         Ok(from)
     }
 
@@ -272,21 +283,21 @@ impl VideoReader {
             return Ok(());
         }
         let damage = self.looked().damage(frame)?;
-        self.foresee(frame, damage)
+        self.foresee(damage)
     }
 
     /// Notes damage that was found around a frame, or fails for it.
-    fn foresee(&mut self, frame: u64, damage: Damage) -> Result<(), VideoError> {
+    fn foresee(&mut self, damage: Damage) -> Result<(), VideoError> {
         // What is heard near the end of a look may be about frames behind it.
-        self.looked_to = (damage.last + 1).saturating_sub(DELAY).max(frame + 1);
-        let (own, beside) = (damage.of_looked_at(&self.options).cloned(), damage.beside(frame, self.looked()));
+        self.looked_to = (damage.last + 1).saturating_sub(DELAY).max(damage.frame + 1);
+        let (own, beside) = (damage.of_looked_at(&self.options).cloned(), damage.beside(self.looked()));
         if self.options.damaged == Damaged::Error {
             let first = beside.and_then(|Beside { faults, traced }| Some((faults.into_iter().next()?, traced)));
             return match (first, own) {
                 (Some((Fault { frame, reason, .. }, traced)), own)
                     if own.as_ref().is_none_or(|own| frame < own.frame) =>
                 {
-                    self.tell(frame, 1, format!("{reason}; frame {traced}, which is asked for, may take after it"))
+                    self.note(frame, 1, format!("{reason}; frame {traced}, which is asked for, may take after it"))
                 }
                 (_, Some(Fault { frame, count, reason })) => self.tell(frame, count, reason),
                 _ => Ok(()),
@@ -308,10 +319,10 @@ impl VideoReader {
     /// Tells of a message that was heard within the last frames that are asked for, if one of them is damaged: decoders work ahead, and may
     /// mean one that comes later.
     fn settle_at_the_end(&mut self, last: u64) -> Result<(), VideoError> {
-        let Some(Complaint { frame, text }) = self.complaint.take() else { return Ok(()) };
+        let Some(Complaint { frame, meant, text }) = self.complaint.take() else { return Ok(()) };
         if !self.looks_again {
             let may_be_later = frame + DELAY > last && self.looked().last().is_some_and(|end| last < end);
-            return if may_be_later { Ok(()) } else { self.tell(frame, 1, text) };
+            return if may_be_later { Ok(()) } else { self.tell(frame, meant, text) };
         }
         let found = self.foreseen.clone().into_iter();
         let told = found.filter(|fault| fault.frame <= last && fault.frame + fault.count > frame);
@@ -326,7 +337,7 @@ impl VideoReader {
     /// Tells of a message after which no frame was missed for long.
     fn settle(&mut self, index: u64) -> Result<(), VideoError> {
         match self.complaint.take_if(|complaint| index > complaint.frame + PATIENCE) {
-            Some(Complaint { frame, text }) => self.tell(frame, 1, text),
+            Some(Complaint { frame, meant, text }) => self.tell(frame, meant, text),
             None => Ok(()),
         }
     }
@@ -411,8 +422,16 @@ impl VideoReader {
         self.timeline.time(index).unwrap_or_else(later)
     }
 
-    /// Notes frames that are damaged or missing, or fails for them.
+    /// Notes frames that are damaged or missing, or fails for them. Of those that nobody looks at, what others take after them is told.
     fn tell(&mut self, frame: u64, count: u64, reason: String) -> Result<(), VideoError> {
+        if self.options.looks_at_any(&(frame..frame.saturating_add(count))) {
+            self.note(frame, count, reason)
+        } else {
+            self.look_ahead(frame)
+        }
+    }
+
+    fn note(&mut self, frame: u64, count: u64, reason: String) -> Result<(), VideoError> {
         let is_too_long = self.options.damaged == Damaged::Hold && count > LONGEST_HOLD;
         if self.options.damaged == Damaged::Error || is_too_long {
             return Err(VideoError::DamagedFrame { path: self.info.path.clone(), frame, reason });
@@ -424,7 +443,7 @@ impl VideoReader {
     /// Finds at the end whether there should have been more frames, and whether all was well.
     fn ended(&mut self, ended: Ended) -> Result<(), VideoError> {
         self.decoder = None;
-        let heard = ended.complaint.map(|text| Complaint { frame: self.expected, text });
+        let heard = ended.complaint.map(|text| Complaint { frame: self.expected, meant: 1, text });
         self.complaint = self.complaint.take().or(heard);
         let total = self.all_frames()?;
         if self.expected < total {
@@ -440,7 +459,11 @@ impl VideoReader {
             return Err(VideoError::Cut { path, expected, found, is_described: true });
         }
         let reason = match self.complaint.take() {
-            Some(Complaint { frame, text }) if self.expected > 0 => return self.tell(frame, 1, text),
+            Some(Complaint { frame, meant, text }) if self.expected > 0 => {
+                // Where frames are counted, what is heard behind the last is about one of them.
+                let frame = self.looked().sure_last().map_or(frame, |last| frame.min(last));
+                return self.tell(frame, meant.min(self.expected.saturating_sub(frame)).max(1), text);
+            }
             Some(Complaint { text, .. }) => text,
             None if ended.is_success && self.expected > 0 => return Ok(()),
             None => "it gives no frame".to_owned(),
@@ -473,15 +496,6 @@ impl VideoReader {
 
 /// Reason of a frame that is missing where nothing is said of it.
 const ENDS: &str = "the video ends before it";
-
-/// Returns the number of a frame that comes where one is expected. Pictures of damaged frames may have times behind the last.
-fn number(frame: &Decoded, timeline: &Timeline, (expected, last): (u64, Option<u64>)) -> u64 {
-    let number = frame.time.map_or(expected, |time| timeline.frame(time));
-    match last.filter(|_| frame.is_corrupt) {
-        Some(last) => number.min(last.max(expected)),
-        None => number,
-    }
-}
 
 /// Returns where decoding begins for a frame to be the first.
 fn start(info: &VideoInfo, timeline: &Timeline, first: u64) -> Start {

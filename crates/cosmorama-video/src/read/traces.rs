@@ -21,7 +21,7 @@ impl Ffmpeg {
     /// # Errors
     /// When the file cannot be read.
     pub fn coded_order(&self, info: &VideoInfo) -> Result<Option<CodedOrder>, VideoError> {
-        let frames = self.coded_frames(&info.path, info.stream, &[])?;
+        let frames = self.coded_frames(info, &[])?;
         let timeline = if info.is_variable {
             Timeline::Listed { times: shown_times(&frames), time_base: info.time_base }
         } else {
@@ -33,7 +33,12 @@ impl Ffmpeg {
 
 impl CodedOrder {
     pub(super) fn new(frames: Vec<CodedFrame>, timeline: Timeline, info: &VideoInfo) -> Self {
-        let is_held_back = ["mpeg1video", "mpeg2video", "mpeg4"].contains(&info.codec.as_str());
+        let is_held_back = match info.codec.as_str() {
+            "mpeg1video" | "mpeg2video" => true,
+            // Without B frames, its decoder has no delay.
+            "mpeg4" => !frames.is_sorted_by_key(|frame| frame.time),
+            _ => false,
+        };
         Self { frames, timeline, is_held_back }
     }
 
@@ -41,12 +46,9 @@ impl CodedOrder {
     /// of which decoders say nothing. A damaged frame that a decoder painted over in the place of one that it lost counts, too.
     pub fn traces(&self, damaged: &[Range<u64>]) -> Vec<u64> {
         let Self { frames, timeline, is_held_back } = self;
-        if !is_held_back {
-            return traces(frames, timeline, damaged);
-        }
         let apart = disjoint(damaged);
-        let painted = painted(frames, timeline, &apart);
-        let meant: Vec<_> = painted.iter().map(|frame| *frame..frame + 1).chain(damaged.iter().cloned()).collect();
+        let painted = if *is_held_back { painted(frames, timeline, &apart) } else { Vec::new() };
+        let meant: Vec<_> = painted.iter().map(|frame| *frame..frame + 1).chain(apart.iter().cloned()).collect();
         let mut found: BTreeSet<u64> = traces(frames, timeline, &meant).into_iter().chain(painted).collect();
         found.retain(|frame| holding(&apart, *frame).is_none());
         found.into_iter().collect()
@@ -186,7 +188,8 @@ mod tests {
         let order = [0, 3, 1, 2, 6, 4, 5, 9, 7, 8];
         let frames = order.map(|time| CodedFrame { time, is_key: time % 6 == 0, is_shown: true }).to_vec();
         let order = |is_held_back| CodedOrder { frames: frames.clone(), timeline: even.clone(), is_held_back };
-        let found_by = |is_held_back, damaged: u64| order(is_held_back).traces(&vec![damaged..damaged + 1; 1]);
+        let found_by =
+            |is_held_back, damaged: u64| order(is_held_back).traces(std::slice::from_ref(&(damaged..damaged + 1)));
         let found = |damaged| found_by(true, damaged);
         assert_eq!(found(3), [1, 2, 4, 5, 6, 7, 8, 9], "6 was painted over");
         assert_eq!(found(0), [1, 2, 3, 4, 5]);

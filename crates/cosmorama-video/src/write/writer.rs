@@ -158,7 +158,11 @@ impl VideoWriter {
         if !status.success() || complaint.as_deref().is_some_and(is_fatal) {
             return Err(self.failed_by(complaint));
         }
-        self.plan.notes.extend(complaint.map(|text| format!("ffmpeg says: {text}")));
+        // It reads the film whose sound it copies, too.
+        let of =
+            self.settings.source.as_ref().map(|source| format!(" of this film, or of {}", source.info.path.display()));
+        let of = of.unwrap_or_default();
+        self.plan.notes.extend(complaint.map(|text| format!("ffmpeg says{of}: {text}")));
         self.add_boxes()?;
         let expected = Expected {
             frames: self.count,

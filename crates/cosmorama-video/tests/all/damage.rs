@@ -212,7 +212,7 @@ fn damage_of_a_key_frame_is_told_of_the_frames_behind_it() {
 fn what_a_decoder_painted_over_is_among_the_traces() {
     let Some(ffmpeg) = ffmpeg() else { return };
     let folder = tempfile::tempdir().unwrap();
-    for (name, codec) in [("a.mkv", "mpeg2video"), ("b.avi", "mpeg4")] {
+    for (name, codec) in [("a.mkv", "mpeg2video"), ("b.avi", "mpeg4"), ("c.mpg", "mpeg2video")] {
         let path = folder.path().join(name);
         let coding = "-bf 2 -g 12 -sc_threshold 1000000000 -b:v 4M";
         run(&format!("{} -c:v {codec} {coding}", moving(128, 64, "25", 40)), &path);
@@ -245,21 +245,52 @@ fn what_a_decoder_painted_over_is_among_the_traces() {
 fn the_last_frame_of_mpeg4_is_damaged() {
     let Some(ffmpeg) = ffmpeg() else { return };
     let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("a.avi");
-    run(&format!("{} -c:v mpeg4 -bf 0 -g 12 -b:v 4M", moving(128, 64, "25", 30)), &path);
-    damage(&path, 29);
-    let read = |damaged: Damaged| {
-        let mut reader =
-            VideoReader::open(&ffmpeg, &ffmpeg.probe(&path)?, ReadOptions { threads: 1, ..with(damaged) })?;
-        let mut found = 0;
-        while reader.next_frame()?.is_some() {
-            found += 1;
+    for (name, coding) in [("a.avi", "-bf 0"), ("b.avi", "-bf 1"), ("c.mp4", "-bf 1")] {
+        let path = folder.path().join(name);
+        run(&format!("{} -c:v mpeg4 {coding} -g 12 -b:v 4M", moving(128, 64, "25", 30)), &path);
+        damage(&path, 29);
+        let read = |damaged: Damaged| {
+            let options = ReadOptions { threads: 1, ..with(damaged) };
+            let mut reader = VideoReader::open(&ffmpeg, &ffmpeg.probe(&path)?, options)?;
+            let mut found = Vec::new();
+            while let Some(frame) = reader.next_frame()? {
+                found.push(frame.index);
+            }
+            let faults = reader.faults().iter().flat_map(|fault| fault.frame..fault.frame + fault.count);
+            Ok((found, faults.collect::<Vec<u64>>()))
+        };
+        let (found, faults) = read(Damaged::Hold).unwrap();
+        assert_eq!(found, (0..30).collect::<Vec<_>>(), "{name}");
+        assert!(!faults.is_empty() && faults.iter().all(|frame| (27..30).contains(frame)), "{name}: {faults:?}");
+        let (found, skipped) = read(Damaged::Skip).unwrap();
+        assert!(found.len() < 30 && found.iter().all(|frame| *frame < 30), "{name}: {found:?}");
+        assert!(skipped.iter().all(|frame| (27..30).contains(frame)), "{name}: {skipped:?}");
+        if coding == "-bf 0" {
+            assert_eq!((faults, skipped), (vec![29], vec![29]), "{name}");
         }
-        Ok((found, reader.faults().iter().map(|fault| (fault.frame, fault.count)).collect::<Vec<_>>()))
-    };
-    assert_eq!(read(Damaged::Hold).unwrap(), (30, vec![(29, 1)]));
-    assert_eq!(read(Damaged::Skip).unwrap(), (29, vec![(29, 1)]));
-    assert!(matches!(read(Damaged::Error).unwrap_err(), VideoError::DamagedFrame { frame: 29, .. }));
+        let error = read(Damaged::Error).unwrap_err();
+        assert!(matches!(error, VideoError::DamagedFrame { frame: 27..30, .. }), "{name}: {error}");
+    }
+}
+
+/// A transport stream tells that packets are lacking, and decoders paint over what they lack, some without an error.
+#[test]
+fn packets_that_a_transport_stream_lost_are_damage() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let hevc = "-c:v libx265 -preset ultrafast -x265-params log-level=none:crf=12:keyint=20:bframes=0";
+    for (name, coding) in [("a.ts", "-c:v libx264 -bf 2 -g 20 -crf 12"), ("b.ts", hevc)] {
+        let path = folder.path().join(name);
+        run(&format!("{} {coding}", moving(128, 64, "25", 40)), &path);
+        assert_eq!(frames(&ffmpeg, &path, ReadOptions::default()).unwrap().len(), 40, "{name}");
+        let (place, _) = packet(&path, 25);
+        let mut bytes = std::fs::read(&path).unwrap();
+        bytes.drain(place + 188..place + 3 * 188);
+        std::fs::write(&path, bytes).unwrap();
+        let error = frames(&ffmpeg, &path, ReadOptions::default()).unwrap_err();
+        assert!(matches!(error, VideoError::DamagedFrame { frame: 18..30, .. }), "{name}: {error}");
+        assert_eq!(frames(&ffmpeg, &path, with(Damaged::Hold)).unwrap().len(), 40, "{name}");
+    }
 }
 
 /// Decoders that begin within a film complain of frames that lack others before that place, which is no damage. In a transport stream a

@@ -215,8 +215,8 @@ pub(crate) struct FilesArgs {
     pub(crate) overwrite: bool,
     /// Skip outputs that are already complete
     ///
-    /// Complete are those that are whole, and of the size, channels and depth that this conversion makes. What else is in their
-    /// places is made again, with a warning.
+    /// Complete are those that are whole, and made with these settings from these inputs, as their files tell. Others made otherwise are an
+    /// error; what is damaged is made again, with a warning.
     #[arg(long, help_heading = "Frames and files")]
     pub(crate) resume: bool,
     /// Fail where a folder of an output does not exist

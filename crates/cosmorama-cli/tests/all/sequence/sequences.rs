@@ -1,5 +1,6 @@
 //! What running promises: threads, frames, reports, interrupts.
 
+use super::films;
 use crate::bench::{Bench, assert_says, flat, picture, text};
 use cosmorama::sphere::CubeFace;
 use serde_json::Value;
@@ -442,4 +443,24 @@ fn explain_tells_of_frames_that_do_not_exist() {
     assert_says(&told, &["warning: sky_#.png: 6 frames are missing: 4-9; the first that exists is 1, the last 3"]);
     let (_, told) = explained("1-3");
     assert!(!told.contains("missing"), "{told}");
+}
+
+/// Numbered pictures have no times, so that a film of them at one rate leaves its sound.
+#[test]
+fn pictures_of_a_film_of_varying_rate_are_told_to_lose_its_times() {
+    if !films::has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    let source = "testsrc2=size=128x64:rate=25,trim=end_frame=20,settb=1/1000,setpts=N*40+mod(N\\,3)*10";
+    let coding = ["-vsync", "passthrough", "-enc_time_base", "1:1000", "-c:v", "libx264", "-bf", "0", "film.mp4"];
+    films::ffmpeg(&bench, &[&["-f", "lavfi", "-i", source][..], &coding].concat());
+    let to = |output: &str| {
+        let args = ["convert", "film.mp4", output, "--from", "equirect", "--to", "fulldome", "--size", "64"];
+        let made = bench.run(&args);
+        assert!(made.status.success(), "{}", text(&made.stderr));
+        text(&made.stderr)
+    };
+    assert_says(&to("f_##.png"), &["warning: film.mp4: its rate varies, and numbered pictures have no times"]);
+    assert!(!to("dome.mkv").contains("have no times"));
 }

@@ -320,6 +320,12 @@ fn frames_are_doubted_from_damage_to_the_next_key_frame() {
     let held = bench.run(&[&args[..], &["--damaged", "hold"]].concat());
     assert!(held.status.success(), "{}", text(&held.stderr));
     assert_says(&text(&held.stderr), &["the first is frame 13", "further frames may take after them, and show traces"]);
+    // A frame that may show traces is shown, so that people can judge them.
+    bench.run(&["verify", "film.mp4", "--sheet", "sheet.png", "--every", "15"]);
+    let sheet = bench.load("sheet.png");
+    let Samples::U8(samples) = sheet.samples() else { panic!("{:?}", sheet.depth()) };
+    let bright = |column: usize| samples[(sheet.width() * 10 + column) * 3..][..3].iter().any(|sample| *sample > 64);
+    assert!((70..120).filter(|column| bright(*column)).count() > 25);
     // Of frames that are not read, nothing is told.
     let some = bench.run(&["verify", "film.mp4", "--frames", "12-14", "--json"]);
     let report: Value = serde_json::from_slice(&some.stdout).unwrap();
@@ -333,13 +339,23 @@ fn frames_are_doubted_from_damage_to_the_next_key_frame() {
     let held = bench.run(&[&args[..], &["-y", "--frames", "18-22", "--damaged", "hold"]].concat());
     assert!(held.status.success(), "{}", text(&held.stderr));
     assert_says(&text(&held.stderr), &["2 frames may take after frame 13, which is damaged", "show traces"]);
+    // What is damaged between frames that are asked for is no reason to fail, where none of them takes after it.
+    let apart = bench.run(&[&args[..], &["-y", "--frames", "10-12,20-22"]].concat());
+    assert!(apart.status.success() && !text(&apart.stderr).contains("damaged"), "{}", text(&apart.stderr));
+    let refused = bench.fail(1, &[&args[..], &["-y", "--frames", "12,15"]].concat());
+    assert_says(&refused, &["frame 13 is damaged", "frame 15, which is asked for, may take after it"]);
     // Of frames between that are not asked for, nothing is told.
     let apart = bench.run(&[&args[..], &["-y", "--frames", "12,24", "--damaged", "hold"]].concat());
     assert!(apart.status.success() && !text(&apart.stderr).contains("0 frames"), "{}", text(&apart.stderr));
     // A frame that is left out is no reason to fail, if it is the only one that is lacking.
-    let skip = [&args[..], &["-y", "--frames", "10-15", "--damaged", "skip"]].concat();
+    let skip = [&args[..], &["-y", "--frames", "10-15", "--damaged", "skip", "--json"]].concat();
     let skipped = bench.run(&skip);
     assert!(skipped.status.success());
+    let report: Value = serde_json::from_slice(&skipped.stdout).unwrap();
+    let made: Vec<&str> = report["outputs"].as_array().unwrap().iter().filter_map(Value::as_str).collect();
+    assert_eq!(made, ["f_10.png", "f_11.png", "f_12.png", "f_14.png", "f_15.png"]);
+    assert_eq!(report["frames"], 5);
+    assert!(!text(&skipped.stderr).contains("sound"), "{}", text(&skipped.stderr));
     assert_says(
         &text(&skipped.stderr),
         &["--damaged: of frames that are left out, there are files from an earlier run: 13;"],

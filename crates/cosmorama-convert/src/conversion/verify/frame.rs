@@ -20,6 +20,8 @@ use crate::source::{Files, read};
 pub(super) struct Frame {
     pub(super) number: u64,
     pub(super) found: Found,
+    /// Small picture in codes of sRGB, if it is to be shown, and there is one.
+    pub(super) thumbnail: Option<Image<[u8; 3]>>,
 }
 
 /// Content in the place of a frame.
@@ -47,8 +49,6 @@ pub(super) struct Picture {
     pub(super) is_black: bool,
     /// Mean colours of [`CELLS`] × [`CELLS`] parts, as codes of sRGB.
     pub(super) cells: Vec<[u8; 3]>,
-    /// Small picture in codes of sRGB, if it is to be shown.
-    pub(super) thumbnail: Option<Image<[u8; 3]>>,
 }
 
 /// Number of parts along each side by which pictures are compared.
@@ -63,6 +63,7 @@ impl Frame {
     /// # Errors
     /// When there is a file, but it may not be read, or needs more memory than permitted.
     pub(super) fn read(files: &dyn Files, (number, path): (u64, &Path), limits: &Limits, shows: bool) -> Result<Self> {
+        let mut thumbnail = None;
         let found = match read(files, path, limits) {
             Ok(file) if file.metadata.origin.as_deref().is_some_and(is_damaged) => {
                 Found::Damage(DAMAGED_ORIGIN.to_owned())
@@ -71,18 +72,16 @@ impl Frame {
                 let transfer = InputTransfer::new(&TransferName::Auto, None).of(file.image.depth(), &file.metadata);
                 let origin = file.metadata.origin.as_deref();
                 let (settings, damage) = (origin.and_then(settings_of).map(str::to_owned), origin.and_then(damage_of));
-                Found::Picture(Picture {
-                    settings,
-                    damage,
-                    ..Picture::of(&file.image, &file.image.to_light(&transfer), shows)
-                })
+                let light = file.image.to_light(&transfer);
+                thumbnail = shows.then(|| sheet::thumbnail(&light));
+                Found::Picture(Picture { settings, damage, ..Picture::of(&file.image, &light) })
             }
             Err(IoError::Open { source, .. }) if source.kind() == ErrorKind::NotFound => Found::Nothing,
             Err(IoError::LeftOut { .. }) => Found::Damage("its decoder has no such frame".to_owned()),
             Err(error) if is_of_system(&error) => return Err(error.into()),
             Err(error) => Found::Damage(error.to_string()),
         };
-        Ok(Self { number, found })
+        Ok(Self { number, found, thumbnail })
     }
 
     /// Returns the picture, if there is a whole one.
@@ -92,11 +91,6 @@ impl Frame {
             Found::Nothing | Found::Damage(_) => None,
         }
     }
-
-    /// Returns the small picture of a frame that is to be shown, if there is a whole one.
-    pub(super) fn thumbnail(&self) -> Option<&Image<[u8; 3]>> {
-        self.picture().and_then(|picture| picture.thumbnail.as_ref())
-    }
 }
 
 impl Picture {
@@ -105,7 +99,7 @@ impl Picture {
         (self.hash, self.size, &self.kind) == (other.hash, other.size, &other.kind)
     }
 
-    fn of(image: &EncodedImage, light: &Image<Rgba>, shows: bool) -> Self {
+    fn of(image: &EncodedImage, light: &Image<Rgba>) -> Self {
         let is_dark = |pixel: &Rgba| pixel.0[..3].iter().all(|sample| *sample == 0.0);
         Self {
             size: (image.width(), image.height()),
@@ -115,7 +109,6 @@ impl Picture {
             hash: hash(image),
             is_black: light.pixels().par_iter().all(is_dark),
             cells: sheet::reduced(light, [CELLS; 2]).pixels().iter().map(sheet::codes).collect(),
-            thumbnail: shows.then(|| sheet::thumbnail(light)),
         }
     }
 }

@@ -171,13 +171,13 @@ mod tests {
             hash: code.into(),
             is_black: code == 0,
             cells: vec![[code; 3]; CELLS * CELLS],
-            thumbnail: None,
         }
     }
 
     fn judged(pictures: impl IntoIterator<Item = Option<Picture>>) -> Vec<(u64, Vec<&'static str>)> {
         let found = |picture: Option<Picture>| picture.map_or(Found::Nothing, Found::Picture);
-        let frames = (1..).zip(pictures).map(|(number, picture)| Frame { number, found: found(picture) });
+        let frames =
+            (1..).zip(pictures).map(|(number, picture)| Frame { number, found: found(picture), thumbnail: None });
         let faults = faults(&frames.collect::<Vec<_>>(), None).into_iter();
         faults.map(|of| (of.frame, of.faults.iter().map(Fault::name).collect())).collect()
     }

@@ -69,7 +69,7 @@ impl Verification<'_> {
     /// Reads every frame, and judges it by itself and beside its neighbours.
     ///
     /// # Errors
-    /// When the pattern is no video and has no frame marker, or leaves a face, an eye or a level open; its folder or all its frames are
+    /// When the pattern is a folder, is no video and has no frame marker, or leaves a face, an eye or a level open; its folder or all its frames are
     /// missing; the first and the last are too far apart; a frame may not be read or needs more memory than permitted, or the sheet does;
     /// [`ConvertError::Stopped`] if the observer ends it.
     pub fn run(&self, files: Arc<dyn Files>, observer: &mut dyn Observer) -> Result<Verified> {
@@ -89,7 +89,7 @@ impl Verification<'_> {
             let (some, later) = rest.split_at(fitting(files, &series, rest, memory)?);
             let read = |(index, number): (usize, &u64)| {
                 if count.is_some_and(|count| *number >= count) {
-                    return Ok(Frame { number: *number, found: Found::Nothing });
+                    return Ok(Frame { number: *number, found: Found::Nothing, thumbnail: None });
                 }
                 let is_shown = self.sheet.is_some_and(|sheet| sheet.shows(first + index));
                 Frame::read(files, (*number, &series.path(Some(*number))), &limits, is_shown)
@@ -169,7 +169,10 @@ fn series(pattern: &Name, files: &dyn Files) -> Result<ViewFiles> {
     }
     match ViewFiles::new(Path::new(pattern)) {
         ViewFiles::One(path) => {
-            is_one_file(files, pattern, &path)?;
+            if path.is_dir() {
+                // It tells which sequences are in the folder.
+                is_one_file(files, pattern, &path)?;
+            }
             Err(usage(format!(
                 "{pattern} has no frame marker such as #### or %04d; write one where the frame number stands"
             )))
@@ -191,7 +194,8 @@ fn tell_reasons(frames: &mut Vec<Frame>, video: &Path, videos: &Videos) -> Resul
     }
     let after = videos.count(video)?.filter(|after| frames.last().is_some_and(|last| last.number < *after));
     let further = faults.into_iter().filter(|(range, _)| Some(range.start) == after);
-    frames.extend(further.take(1).map(|(range, reason)| Frame { number: range.start, found: Found::Damage(reason) }));
+    let further = further.take(1).map(|(range, reason)| (range.start, Found::Damage(reason)));
+    frames.extend(further.map(|(number, found)| Frame { number, found, thumbnail: None }));
     Ok(())
 }
 
@@ -199,7 +203,7 @@ fn tell_reasons(frames: &mut Vec<Frame>, video: &Path, videos: &Videos) -> Resul
 fn drawn(frames: &[Frame], faults: &[Faults], layout: SheetLayout) -> Image<Rgba> {
     let shown = frames.iter().enumerate().filter(|(index, _)| layout.shows(*index)).map(|(_, frame)| Shown {
         number: frame.number,
-        picture: frame.thumbnail(),
+        picture: frame.thumbnail.as_ref(),
         is_faulty: faults.binary_search_by_key(&frame.number, |of| of.frame).is_ok(),
     });
     sheet::of(&shown.collect::<Vec<_>>())

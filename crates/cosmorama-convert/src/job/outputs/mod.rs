@@ -15,6 +15,7 @@ use crate::job::{ConvertJob, Remade, Resumed, is_large};
 use crate::settings::{Conversion, Existing, GeometrySettings};
 use crate::source::ViewFiles;
 use crate::source::memory_budget::human;
+use crate::source::video::MadeVideos;
 use crate::target::{Target, TargetFile};
 
 use places::Places;
@@ -195,14 +196,20 @@ pub(crate) struct Space {
 
 impl Space {
     /// Returns the space that the outputs of a job take.
-    pub(crate) fn of(job: &ConvertJob, compression: Option<Compression>) -> Self {
+    pub(crate) fn of(job: &ConvertJob, settings: &Conversion) -> Self {
         let Target { files, format, .. } = &job.target;
         let bytes = |file: &TargetFile| {
             let levels = file.levels().map(|sheet| job.light.file_bytes(sheet.size)).fold(0, u64::saturating_add);
             levels.saturating_add(job.layers.file_bytes(file.sheet.size))
         };
         let raw = files.iter().map(bytes).fold(0, u64::saturating_add);
-        let frame = compressed(raw, *format, compression);
+        let frame = match format {
+            Format::Video => {
+                let codec = settings.video.codec.as_deref();
+                (raw / 100).saturating_mul(MadeVideos::percent(Path::new(&settings.output), codec))
+            }
+            _ => compressed(raw, *format, settings.compression),
+        };
         let frames = &job.outputs.frames;
         let taken = job.outputs.paths().filter(|path| job.outputs.taken.contains(*path));
         let replaced: u64 = taken.map(|path| std::fs::metadata(path).map_or(0, |file| file.len())).sum();

@@ -95,7 +95,11 @@ impl Videos {
         Err(refusal(video))
     }
 
-    pub(crate) fn complaints(&self) -> Vec<String> {
+    pub(crate) fn varies(&self, _: &Path) -> Result<bool, IoError> {
+        Ok(false)
+    }
+
+    pub(crate) fn complaints(&self, _: bool) -> Vec<String> {
         Vec::new()
     }
 }
@@ -103,6 +107,10 @@ impl Videos {
 impl MadeVideos {
     pub(crate) fn holds_alpha(_: &Path, _: Option<&str>, _: bool) -> bool {
         false
+    }
+
+    pub(crate) fn percent(_: &Path, _: Option<&str>) -> u64 {
+        100
     }
 
     pub(crate) fn check(_: &[(PathBuf, (usize, usize))], _: &VideoPlan, _: Option<&Videos>) -> Result<()> {

@@ -3,7 +3,7 @@
 use cosmorama_video::{Announced, AnnouncedBy, CutShort, Damaged, Ffmpeg, VideoError, VideoInfo};
 
 /// Returns the number of frames that a file announces. Where only its duration tells, which may be rounded, its coded frames are
-/// counted; of a file that is cut they would be too few, and nobody would miss the others.
+/// counted; of a file that is cut they would be too few, and nobody would miss the others. Those that were lost between others count.
 pub(super) fn count(ffmpeg: &Ffmpeg, info: &VideoInfo, damaged: Damaged) -> Result<u64, VideoError> {
     let announced = match info.announced {
         Some(Announced { frames, by: AnnouncedBy::Count }) if !hides_frames(info, frames) => return Ok(frames),
@@ -25,16 +25,11 @@ pub(super) fn count(ffmpeg: &Ffmpeg, info: &VideoInfo, damaged: Damaged) -> Resu
     if hides_frames(info, announced.unwrap_or(coded)) {
         return Ok(coded);
     }
+    let Some(frames) = announced.filter(|frames| coded < *frames) else { return Ok(coded) };
+    // A duration may be rounded up by one frame. Where the last has the last number all the same, another was lost.
     let last = coded.checked_sub(1).and_then(|last| times.time(last));
-    // Whether the last has the last number that is announced: then the one that is lacking was lost, and not rounded up.
-    let is_last = |frames: u64| -> Result<bool, VideoError> {
-        let Some(last) = last.filter(|_| !info.is_variable && coded + 1 == frames) else { return Ok(false) };
-        Ok(ffmpeg.timeline(info)?.frame(last) + 1 == frames)
-    };
-    match announced {
-        Some(frames) if coded + 1 < frames || is_last(frames)? => Ok(frames),
-        _ => Ok(coded),
-    }
+    let is_rounded = coded + 1 == frames && ffmpeg.timeline(info)?.frame(last.unwrap_or(0)) + 1 < frames;
+    Ok(if is_rounded { coded } else { frames })
 }
 
 /// Returns whether some of the frames that a file counts are not shown: the edit list of an MP4 that was cut without encoding it again

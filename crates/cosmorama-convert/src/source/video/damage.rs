@@ -3,7 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-use cosmorama_video::{CutShort, Fault};
+use cosmorama_io::FrameList;
+use cosmorama_video::{CutShort, Damaged, Fault};
 
 use super::FrameDamage;
 
@@ -117,23 +118,28 @@ impl Damage {
         }
     }
 
-    /// Returns the complaint about frames that were held or left out. `traces` counts the frames that take after some.
-    pub(super) fn complaint(&self, is_left_out: bool, traces: impl Fn(&Faults) -> u64) -> Option<String> {
+    /// Returns the complaint about frames that were held or left out, perhaps of a film. `traces` counts the frames that take after some.
+    pub(super) fn complaint(
+        &self,
+        (answer, makes_film): (Damaged, bool),
+        traces: impl Fn(&Faults) -> u64,
+    ) -> Option<String> {
         let faults = &self.faults;
         let (first, (_, reason)) = faults.first_key_value()?;
         let count: u64 = faults.values().map(|(count, _)| count).sum();
-        let instead = if is_left_out {
-            "left out, so that what follows comes earlier than its sound"
-        } else {
-            "replaced by the one before (at the beginning, by the first whole one)"
+        let instead = match (answer, makes_film) {
+            (Damaged::Skip, true) => "left out, so that what follows comes earlier than its sound",
+            (Damaged::Skip, false) => "left out",
+            _ => "replaced by the one before (at the beginning, by the first whole one)",
         };
         let further = match traces(faults) {
             0 => String::new(),
             1 => "; 1 further frame may take after them, and show traces".to_owned(),
             traced => format!("; {traced} further frames may take after them, and show traces"),
         };
+        let which = if count == 1 { String::new() } else { format!("; all: {}", list(faults)) };
         Some(format!(
-            "{count} {} damaged or missing, and {instead}; the first is frame {first} ({reason}){further}",
+            "{count} {} damaged or missing, and {instead}; the first is frame {first} ({reason}){further}{which}",
             if count == 1 { "frame is" } else { "frames are" }
         ))
     }
@@ -147,6 +153,14 @@ impl Damage {
             format!("{traced} {frames} take after frame {damaged}, which is damaged ({reason}) though it is not asked for, and show traces")
         })
     }
+}
+
+/// Returns the frames of faults as a list that `--frames` takes, at most the first thousand.
+fn list(faults: &Faults) -> String {
+    const SHOWN: usize = 1000;
+    let frames: Vec<u64> = ranges(faults).flatten().take(SHOWN + 1).collect();
+    let more = if frames.len() > SHOWN { " and more" } else { "" };
+    format!("{}{more}", FrameList::new(frames.into_iter().take(SHOWN)))
 }
 
 /// Returns the frames of faults.

@@ -61,6 +61,12 @@ struct Shown<'a> {
 /// Rate of a video when nothing else tells one.
 const USUAL: FrameRate = FrameRate { frames: 30, seconds: 1 };
 
+/// Returns the codec of a video, by its name unless one is chosen.
+fn codec_of(path: &Path, chosen: Option<&str>) -> Option<Codec> {
+    let usual = || Some(Container::of_path(path)?.codecs()[0]);
+    chosen.map_or_else(usual, Codec::of_name)
+}
+
 impl MadeVideos {
     /// Checks the settings of videos of these sizes before anything is read for them.
     pub(crate) fn check(
@@ -87,11 +93,18 @@ impl MadeVideos {
     pub(crate) fn holds_alpha(path: &Path, codec: Option<&str>, is_deep: bool) -> bool {
         match RawKind::of(path) {
             Some(kind) => kind == RawKind::Pam,
-            None => {
-                let usual = || Some(Container::of_path(path)?.codecs()[0]);
-                codec.map_or_else(usual, Codec::of_name).is_some_and(|codec| codec.holds_alpha(is_deep))
-            }
+            None => codec_of(path, codec).is_some_and(|codec| codec.holds_alpha(is_deep)),
         }
+    }
+
+    /// Returns the bytes of a video in hundredths of those of its samples, about: those of rendered pictures with some noise.
+    pub(crate) fn percent(path: &Path, codec: Option<&str>) -> u64 {
+        let coded = codec_of(path, codec).filter(|_| RawKind::of(path).is_none());
+        coded.map_or(100, |codec| match codec {
+            Codec::H264 | Codec::Hevc | Codec::Av1 | Codec::Vp9 => 10,
+            Codec::ProRes | Codec::DnxHr => 25,
+            Codec::Ffv1 => 65,
+        })
     }
 
     /// Starts the encoders of videos of these sizes.

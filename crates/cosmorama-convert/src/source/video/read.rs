@@ -244,11 +244,16 @@ impl Videos {
     }
 
     /// Returns messages about frames that were damaged, and about frames that were not announced.
-    pub(crate) fn complaints(&self) -> Vec<String> {
-        self.sources().values().flat_map(|source| source.complaints()).collect()
+    pub(crate) fn complaints(&self, makes_film: bool) -> Vec<String> {
+        self.sources().values().flat_map(|source| source.complaints(makes_film)).collect()
     }
 
     /// Returns what a video is; `None` for a stream of raw pictures.
+    /// Returns whether the rate of a film varies.
+    pub(crate) fn varies(&self, video: &Path) -> Result<bool, IoError> {
+        Ok(self.info(video)?.is_some_and(|info| info.is_variable))
+    }
+
     pub(super) fn info(&self, video: &Path) -> Result<Option<VideoInfo>, IoError> {
         Ok(match &self.source(video)?.content {
             Content::Film { info, .. } => Some((**info).clone()),
@@ -461,14 +466,14 @@ impl Source {
     }
 
     /// Returns messages about frames that were damaged, and about those that were not announced, or may be lacking.
-    fn complaints(&self) -> Vec<String> {
+    fn complaints(&self, makes_film: bool) -> Vec<String> {
         let mut state = self.state();
         let further = state.has_more.then(|| more_than(self.count));
         state.close();
         let cut = self.cut().filter(|_| state.damage.faults.is_empty() && self.damaged != Damaged::Error);
         let cut = cut.filter(|_| further.is_none()).map(|cut| may_lack(cut, state.asked.len()));
         let (damage, count) = (&state.damage, |faults: &Faults| self.count_traces(&state, faults));
-        let of_faults = damage.complaint(self.damaged == Damaged::Skip, count);
+        let of_faults = damage.complaint((self.damaged, makes_film), count);
         let found = [further, of_faults, damage.complaint_beside(count), cut].into_iter().flatten();
         found.map(|found| format!("{}: {found}", self.name.display())).collect()
     }

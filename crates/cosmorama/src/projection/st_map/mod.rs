@@ -39,7 +39,7 @@ pub struct StMapTable {
 
 /// Bytes of a piece in a table: its leaf, its box, its entry in the tree with a share of the nodes above, and what is held of it while
 /// trees are built.
-const PIECE: u64 = 160;
+const PIECE: u64 = 176;
 
 /// Returns the number of tables: of directions, and of places.
 fn tables(has_places: bool) -> u64 {
