@@ -1,6 +1,5 @@
 //! What running promises: threads, frames, reports, interrupts.
 
-use super::films;
 use crate::bench::{Bench, assert_says, flat, picture, text};
 use cosmorama::sphere::CubeFace;
 use serde_json::Value;
@@ -446,15 +445,16 @@ fn explain_tells_of_frames_that_do_not_exist() {
 }
 
 /// Numbered pictures have no times, so that a film of them at one rate leaves its sound.
+#[cfg(feature = "video")]
 #[test]
 fn pictures_of_a_film_of_varying_rate_are_told_to_lose_its_times() {
-    if !films::has_ffmpeg() {
+    if !super::films::has_ffmpeg() {
         return;
     }
     let bench = Bench::new();
     let source = "testsrc2=size=128x64:rate=25,trim=end_frame=20,settb=1/1000,setpts=N*40+mod(N\\,3)*10";
     let coding = ["-vsync", "passthrough", "-enc_time_base", "1:1000", "-c:v", "libx264", "-bf", "0", "film.mp4"];
-    films::ffmpeg(&bench, &[&["-f", "lavfi", "-i", source][..], &coding].concat());
+    super::films::ffmpeg(&bench, &[&["-f", "lavfi", "-i", source][..], &coding].concat());
     let to = |output: &str| {
         let args = ["convert", "film.mp4", output, "--from", "equirect", "--to", "fulldome", "--size", "64"];
         let made = bench.run(&args);
