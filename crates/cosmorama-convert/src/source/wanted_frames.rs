@@ -2,7 +2,7 @@ use std::collections::BTreeSet;
 
 use cosmorama_io::{FrameList, FramePattern, Frames, IoError};
 
-use crate::diagnostic::{FRAMES, Result, bail, usage};
+use crate::diagnostic::{FRAMES, PATH, Result, YAW, bail, usage};
 use crate::source::{Files, ViewFiles};
 
 /// Pictures by frame.
@@ -93,7 +93,7 @@ fn find_in(
         return match wanted {
             Some(_) => Err(usage(format!(
                 "{FRAMES} is given, but the input has no frame marker such as #### or %04d; write one where the frame number \
-                 stands, or leave {FRAMES} out; where the camera moves (--yaw A..B, --path), a still picture has frames"
+                 stands, or leave {FRAMES} out; where the camera moves ({YAW} A..B, {PATH}), a still picture has frames"
             ))),
             None => Ok(vec![None]),
         };

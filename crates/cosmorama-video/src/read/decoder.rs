@@ -123,11 +123,11 @@ impl Decoder {
                     self.is_doubtful = true
                 }
                 Some(Event::Corrupt) => is_corrupt = true,
-                // Not always does its decoder complain, too, and not always is the picture another one.
+                // Its decoder may paint over what it lacks without a word. Where streams were joined, nothing is lacking, and nobody can tell.
                 Some(Event::CorruptPacket(stream)) if stream == info.stream => {
                     // It is of a frame that is read now: those that are kept back come before it, and one is in the parser.
                     meant = info.delay + 2;
-                    complaint.get_or_insert_with(|| "a part of it is lost or damaged".to_owned());
+                    complaint.get_or_insert_with(|| "packets are lost, or streams were joined there".to_owned());
                 }
                 Some(Event::CorruptPacket(_)) => {}
                 Some(Event::Complaint(text)) => {

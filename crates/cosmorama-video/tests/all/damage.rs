@@ -13,7 +13,8 @@ fn with(damaged: Damaged) -> ReadOptions {
 /// Place and size of the coded frame that is stored at a number.
 fn packet(path: &Path, number: usize) -> (usize, usize) {
     let lines = probed(path, "-select_streams v:0 -show_entries packet=pos,size -of csv=p=0");
-    let line = lines.lines().nth(number).unwrap();
+    // Side data of a transport stream has lines of its own.
+    let line = lines.lines().filter(|line| !line.is_empty()).nth(number).unwrap();
     let mut fields = line.split(',').map(|field| field.parse::<usize>().unwrap());
     let (size, place) = (fields.next().unwrap(), fields.next().unwrap());
     (place, size)
