@@ -44,7 +44,7 @@ pub(crate) struct Further {
     pub(super) left_out: LeftOut,
 }
 
-/// Frames that were not made, since their input's are damaged, with the files that they would have.
+/// Frames that were not made, since those of the input are damaged, with the names of their files.
 #[derive(Debug, Default)]
 pub(crate) struct LeftOut {
     pub(super) frames: usize,

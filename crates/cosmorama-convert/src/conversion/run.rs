@@ -236,8 +236,9 @@ struct Run<'a> {
     done: usize,
     /// Files of frames that were not known at the beginning.
     files: Vec<PathBuf>,
+    /// Frames that are left out.
     left_out: LeftOut,
-    /// Frames that are left out, though there are files in their places.
+    /// Numbers of those in whose places there are files.
     stale: Vec<u64>,
 }
 

@@ -50,8 +50,7 @@ impl ReadOptions {
 
     /// Returns whether somebody looks at a frame.
     fn looks_at(&self, frame: u64) -> bool {
-        self.frames.as_ref().is_none_or(|frames| frames.contains(&frame))
-            && self.looked_at.as_ref().is_none_or(|looked_at| looked_at.contains(&frame))
+        self.looks_at_any(&(frame..frame.saturating_add(1)))
     }
 }
 
@@ -101,7 +100,7 @@ pub enum FrameCondition {
     Held,
 }
 
-/// Damaged or missing frames that were held or skipped.
+/// Frames that are damaged or missing.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
     /// Number of the first frame.
@@ -110,4 +109,6 @@ pub struct Fault {
     pub count: u64,
     /// Finding, in words.
     pub reason: String,
+    /// Whether the frames came all the same: a decoder complained, and nobody knows of which. Others were held or skipped.
+    pub is_given: bool,
 }

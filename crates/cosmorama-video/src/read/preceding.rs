@@ -57,8 +57,8 @@ impl Looked<'_> {
         let (start, coded) = self.start_before(frame)?;
         let last = self.last().map_or(frame, |last| last.min(frame + PATIENCE)).max(frame);
         let frames = Some(start..=last);
-        let all = ReadOptions { frames, looked_at: None, ..options.clone() };
-        let options = ReadOptions { damaged: Damaged::Skip, threads: 1, ..all };
+        let damaged = Damaged::Skip;
+        let options = ReadOptions { frames, looked_at: None, damaged, threads: 1, ..options.clone() };
         let mut reader = VideoReader::looking_no_further(ffmpeg, info, options)?;
         let mut is_given = false;
         loop {
@@ -77,8 +77,8 @@ impl Looked<'_> {
         let Some(before) = frame.checked_sub(1) else { return Ok(None) };
         let (start, _) = self.start_before(frame)?;
         let frames = Some(start..=before);
-        let all = ReadOptions { frames, looked_at: None, ..self.options.clone() };
-        let options = ReadOptions { damaged: Damaged::Hold, threads: 1, ..all };
+        let damaged = Damaged::Hold;
+        let options = ReadOptions { frames, looked_at: None, damaged, threads: 1, ..self.options.clone() };
         let mut reader = VideoReader::looking_no_further(self.ffmpeg, self.info, options)?;
         let mut shown = None;
         while let Some(frame) = reader.next_frame()? {
@@ -141,13 +141,13 @@ impl Damage {
 
     /// Returns the first fault of a frame that is looked at.
     pub(super) fn of_looked_at(&self, options: &ReadOptions) -> Option<&Fault> {
-        self.faults.iter().find(|fault| frames(fault).any(|frame| options.looks_at(frame)))
+        self.faults.iter().find(|fault| options.looks_at_any(&frames(fault)))
     }
 
     /// Returns the damage beside the frames that are looked at, if one of these may show traces of it.
     pub(super) fn beside(&self, looked: Looked) -> Option<Beside> {
         let Looked { info, timeline, options, .. } = looked;
-        let is_beside = |fault: &&Fault| !frames(fault).any(|frame| options.looks_at(frame));
+        let is_beside = |fault: &&Fault| !options.looks_at_any(&frames(fault));
         let faults: Vec<Fault> = self.faults.iter().filter(is_beside).cloned().collect();
         let damaged: Vec<_> = faults.iter().map(frames).collect();
         let all = if self.coded.is_empty() && !faults.is_empty() {

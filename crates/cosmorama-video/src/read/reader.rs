@@ -241,7 +241,8 @@ impl VideoReader {
                 self.complaint.get_or_insert(Complaint { frame: index, meant: frame.meant, text });
             }
             if index < self.expected {
-                self.tell(index, 1, "a second picture has its time".to_owned())?;
+                let reason = "a second picture has its time".to_owned();
+                self.tell(Fault { frame: index, count: 1, reason, is_given: true })?;
                 continue;
             }
             self.ahead = Some(Ahead { index, frame });
@@ -294,12 +295,11 @@ impl VideoReader {
         if self.options.damaged == Damaged::Error {
             let first = beside.and_then(|Beside { faults, traced }| Some((faults.into_iter().next()?, traced)));
             return match (first, own) {
-                (Some((Fault { frame, reason, .. }, traced)), own)
-                    if own.as_ref().is_none_or(|own| frame < own.frame) =>
-                {
-                    self.note(frame, 1, format!("{reason}; frame {traced}, which is asked for, may take after it"))
+                (Some((fault, traced)), own) if own.as_ref().is_none_or(|own| fault.frame < own.frame) => {
+                    let reason = format!("{}; frame {traced}, which is asked for, may take after it", fault.reason);
+                    self.note(Fault { reason, ..fault })
                 }
-                (_, Some(Fault { frame, count, reason })) => self.tell(frame, count, reason),
+                (_, Some(own)) => self.note(own),
                 _ => Ok(()),
             };
         }
@@ -322,13 +322,14 @@ impl VideoReader {
         let Some(Complaint { frame, meant, text }) = self.complaint.take() else { return Ok(()) };
         if !self.looks_again {
             let may_be_later = frame + DELAY > last && self.looked().last().is_some_and(|end| last < end);
-            return if may_be_later { Ok(()) } else { self.tell(frame, meant, text) };
+            let fault = Fault { frame, count: meant, reason: text, is_given: true };
+            return if may_be_later { Ok(()) } else { self.tell(fault) };
         }
         let found = self.foreseen.clone().into_iter();
         let told = found.filter(|fault| fault.frame <= last && fault.frame + fault.count > frame);
-        for Fault { frame, count, reason } in told {
-            if !self.is_told(frame) {
-                self.tell(frame, count, reason)?;
+        for fault in told {
+            if !self.is_told(fault.frame) {
+                self.tell(Fault { is_given: true, ..fault })?;
             }
         }
         Ok(())
@@ -337,7 +338,9 @@ impl VideoReader {
     /// Tells of a message after which no frame was missed for long.
     fn settle(&mut self, index: u64) -> Result<(), VideoError> {
         match self.complaint.take_if(|complaint| index > complaint.frame + PATIENCE) {
-            Some(Complaint { frame, meant, text }) => self.tell(frame, meant, text),
+            Some(Complaint { frame, meant, text }) => {
+                self.tell(Fault { frame, count: meant, reason: text, is_given: true })
+            }
             None => Ok(()),
         }
     }
@@ -350,7 +353,7 @@ impl VideoReader {
             let usual = if is_corrupt { "it was decoded with errors" } else { "there is no picture of its time" };
             let reason = self.complaint.take().map_or_else(|| usual.to_owned(), |complaint| complaint.text);
             let count = end.min(self.end_of_range()).saturating_sub(first).max(1);
-            self.tell(first, count, reason)?;
+            self.tell(Fault { frame: first, count, reason, is_given: false })?;
         }
         if self.options.damaged == Damaged::Hold {
             if self.held.is_none() && self.looks_again && first == self.first_asked() {
@@ -399,12 +402,14 @@ impl VideoReader {
         let Some(image) = self.held.clone().filter(|_| can_go_on) else {
             self.total = None;
             let reason = self.complaint.take().map_or_else(|| ENDS.to_owned(), |complaint| complaint.text);
-            self.tell(found, announced.min(self.end_of_range()) - found, reason)?;
+            let count = announced.min(self.end_of_range()) - found;
+            self.tell(Fault { frame: found, count, reason, is_given: false })?;
             return Ok(None);
         };
         if !self.is_told(found) {
             let reason = self.complaint.take().map_or_else(|| ENDS.to_owned(), |complaint| complaint.text);
-            self.tell(found, announced.min(self.end_of_range()) - found, reason)?;
+            let count = announced.min(self.end_of_range()) - found;
+            self.tell(Fault { frame: found, count, reason, is_given: false })?;
         }
         Ok(Some(self.hold(image)))
     }
@@ -422,21 +427,23 @@ impl VideoReader {
         self.timeline.time(index).unwrap_or_else(later)
     }
 
-    /// Notes frames that are damaged or missing, or fails for them. Of those that nobody looks at, what others take after them is told.
-    fn tell(&mut self, frame: u64, count: u64, reason: String) -> Result<(), VideoError> {
-        if self.options.looks_at_any(&(frame..frame.saturating_add(count))) {
-            self.note(frame, count, reason)
+    /// Notes a fault, or fails for it. Where nobody looks at its frames, those that take after them count.
+    fn tell(&mut self, fault: Fault) -> Result<(), VideoError> {
+        if self.options.looks_at_any(&(fault.frame..fault.frame.saturating_add(fault.count))) {
+            self.note(fault)
         } else {
-            self.look_ahead(frame)
+            self.look_ahead(fault.frame)
         }
     }
 
-    fn note(&mut self, frame: u64, count: u64, reason: String) -> Result<(), VideoError> {
-        let is_too_long = self.options.damaged == Damaged::Hold && count > LONGEST_HOLD;
+    /// Notes a fault, or fails for it, whoever looks at its frames.
+    fn note(&mut self, fault: Fault) -> Result<(), VideoError> {
+        let is_too_long = self.options.damaged == Damaged::Hold && fault.count > LONGEST_HOLD;
         if self.options.damaged == Damaged::Error || is_too_long {
+            let Fault { frame, reason, .. } = fault;
             return Err(VideoError::DamagedFrame { path: self.info.path.clone(), frame, reason });
         }
-        self.faults.push(Fault { frame, count, reason });
+        self.faults.push(fault);
         Ok(())
     }
 
@@ -462,7 +469,8 @@ impl VideoReader {
             Some(Complaint { frame, meant, text }) if self.expected > 0 => {
                 // Where frames are counted, what is heard behind the last is about one of them.
                 let frame = self.looked().sure_last().map_or(frame, |last| frame.min(last));
-                return self.tell(frame, meant.min(self.expected.saturating_sub(frame)).max(1), text);
+                let (count, is_given) = (meant.min(self.expected.saturating_sub(frame)).max(1), frame < self.expected);
+                return self.tell(Fault { frame, count, reason: text, is_given });
             }
             Some(Complaint { text, .. }) => text,
             None if ended.is_success && self.expected > 0 => return Ok(()),

@@ -8,13 +8,13 @@ use cosmorama_video::{CutShort, Damaged, Fault};
 
 use super::FrameDamage;
 
-/// First frames of faults, each with the number of frames and the reason.
-pub(super) type Faults = BTreeMap<u64, (u64, String)>;
+/// Faults by their first frames.
+pub(super) type Faults = BTreeMap<u64, Fault>;
 
 /// Damage of a video.
 #[derive(Debug, Default)]
 pub(super) struct Damage {
-    /// Faults of frames that are left out, or in place of which others are shown.
+    /// Faults of frames that were asked for.
     pub(super) faults: Faults,
     /// Damaged frames beside those that were asked for, after which some of these take.
     pub(super) beside: Faults,
@@ -110,43 +110,43 @@ impl Damage {
     /// Notes what a decoder has told by its end.
     pub(super) fn note(&mut self, Told { faults, beside, .. }: Told) {
         for (known, found) in [(&mut self.faults, faults), (&mut self.beside, beside)] {
-            for Fault { frame, count, reason } in found {
+            for fault in found {
                 // Of two streams, or of two decoders, the longer gap.
-                let known = known.entry(*frame).or_insert_with(|| (*count, reason.clone()));
-                known.0 = known.0.max(*count);
+                let known = known.entry(fault.frame).or_insert_with(|| fault.clone());
+                known.count = known.count.max(fault.count);
+                known.is_given &= fault.is_given;
             }
         }
     }
 
-    /// Returns the complaint about frames that were held or left out, perhaps of a film. `traces` counts the frames that take after some.
+    /// Returns the complaint about frames that were held or left out, perhaps of a film, and about those that may be damaged. `traces`
+    /// counts the frames that take after some.
     pub(super) fn complaint(
         &self,
         (answer, makes_film): (Damaged, bool),
         traces: impl Fn(&Faults) -> u64,
     ) -> Option<String> {
-        let faults = &self.faults;
-        let (first, (_, reason)) = faults.first_key_value()?;
-        let count: u64 = faults.values().map(|(count, _)| count).sum();
         let instead = match (answer, makes_film) {
-            (Damaged::Skip, true) => "left out, so that what follows comes earlier than its sound",
-            (Damaged::Skip, false) => "left out",
-            _ => "replaced by the one before (at the beginning, by the first whole one)",
+            (Damaged::Skip, true) => {
+                "damaged or missing, and left out, so that what follows comes earlier than its sound"
+            }
+            (Damaged::Skip, false) => "damaged or missing, and left out",
+            _ => "damaged or missing, and replaced by the one before (at the beginning, by the first whole one)",
         };
-        let further = match traces(faults) {
+        let (given, lost): (Vec<&Fault>, Vec<&Fault>) = self.faults.values().partition(|fault| fault.is_given);
+        let told = [complaint_of(&lost, instead), complaint_of(&given, "perhaps damaged, and passed on")];
+        let told: Vec<String> = told.into_iter().flatten().collect();
+        let further = match traces(&self.faults) {
             0 => String::new(),
             1 => "; 1 further frame may take after them, and show traces".to_owned(),
             traced => format!("; {traced} further frames may take after them, and show traces"),
         };
-        let which = if count == 1 { String::new() } else { format!("; all: {}", list(faults)) };
-        Some(format!(
-            "{count} {} damaged or missing, and {instead}; the first is frame {first} ({reason}){further}{which}",
-            if count == 1 { "frame is" } else { "frames are" }
-        ))
+        (!told.is_empty()).then(|| told.join("; ") + &further)
     }
 
     /// Returns the complaint about frames that may take after one that was not asked for.
     pub(super) fn complaint_beside(&self, traces: impl Fn(&Faults) -> u64) -> Option<String> {
-        let (damaged, (_, reason)) = self.beside.first_key_value()?;
+        let (damaged, Fault { reason, .. }) = self.beside.first_key_value()?;
         let traced = traces(&self.beside);
         (traced > 0).then(|| {
             let frames = if traced == 1 { "frame may" } else { "frames may" };
@@ -155,19 +155,26 @@ impl Damage {
     }
 }
 
+/// Returns the complaint about the frames of faults; `None` if there are none.
+fn complaint_of(faults: &[&Fault], what: &str) -> Option<String> {
+    let Fault { frame, reason, .. } = faults.first()?;
+    let count: u64 = faults.iter().map(|fault| fault.count).sum();
+    let are = if count == 1 { "frame is" } else { "frames are" };
+    let all = if count == 1 { String::new() } else { format!("; all: {}", list(faults)) };
+    Some(format!("{count} {are} {what}; the first is frame {frame} ({reason}){all}"))
+}
+
 /// Returns the frames of faults as a list that `--frames` takes, at most the first thousand.
-fn list(faults: &Faults) -> String {
+fn list(faults: &[&Fault]) -> String {
     const SHOWN: usize = 1000;
-    let frames: Vec<u64> = ranges(faults).flatten().take(SHOWN + 1).collect();
+    let frames: Vec<u64> = ranges(faults.iter().copied()).flatten().take(SHOWN + 1).collect();
     let more = if frames.len() > SHOWN { " and more" } else { "" };
     format!("{}{more}", FrameList::new(frames.into_iter().take(SHOWN)))
 }
 
 /// Returns the frames of faults.
-pub(super) fn ranges<'a>(
-    faults: impl IntoIterator<Item = (&'a u64, &'a (u64, String))>,
-) -> impl Iterator<Item = Range<u64>> {
-    faults.into_iter().map(|(first, (count, _))| *first..first.saturating_add(*count))
+pub(super) fn ranges<'a>(faults: impl IntoIterator<Item = &'a Fault>) -> impl Iterator<Item = Range<u64>> {
+    faults.into_iter().map(|fault| fault.frame..fault.frame.saturating_add(fault.count))
 }
 
 /// Returns the complaint about frames that a cut file may lack, when so many were read.
@@ -189,7 +196,7 @@ mod tests {
     use super::*;
 
     fn fault(frame: u64, count: u64) -> Fault {
-        Fault { frame, count, reason: "it is bad".to_owned() }
+        Fault { frame, count, reason: "it is bad".to_owned(), is_given: false }
     }
 
     fn told<'a>(faults: &'a [Fault], foreseen: &'a [Fault]) -> Told<'a> {
@@ -238,6 +245,20 @@ mod tests {
         let mut damage = Damage::default();
         damage.note(told(&[fault(5, 1), fault(8, 2)], &[]));
         damage.note(told(&[fault(8, 4)], &[]));
-        assert_eq!(ranges(&damage.faults).collect::<Vec<_>>(), [5..6, 8..12]);
+        assert_eq!(ranges(damage.faults.values()).collect::<Vec<_>>(), [5..6, 8..12]);
+    }
+    #[test]
+    fn frames_that_came_all_the_same_are_told_apart() {
+        let mut damage = Damage::default();
+        let doubtful = Fault { is_given: true, ..fault(8, 3) };
+        damage.note(told(&[fault(5, 1), doubtful], &[]));
+        let complaint = damage.complaint((Damaged::Skip, false), |_| 2).unwrap();
+        let expected = "1 frame is damaged or missing, and left out; the first is frame 5 (it is bad); \
+                        3 frames are perhaps damaged, and passed on; the first is frame 8 (it is bad); all: 8-10; \
+                        2 further frames may take after them, and show traces";
+        assert_eq!(complaint, expected);
+        // Whoever lost them, they are lost.
+        damage.note(told(&[fault(8, 3)], &[]));
+        assert!(!damage.complaint((Damaged::Skip, false), |_| 0).unwrap().contains("perhaps"));
     }
 }

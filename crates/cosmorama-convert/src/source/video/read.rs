@@ -10,8 +10,8 @@ use cosmorama_io::pending::Unfinished;
 use cosmorama_io::{Header, ImageFile, IoError, Limits};
 use cosmorama_spec::{FrameRate, Spec};
 use cosmorama_video::{
-    CodedOrder, CutShort, Damaged, Ffmpeg, FrameCondition, PairedReader, ReadOptions, SecondHalf, Timeline, VideoError,
-    VideoFrame, VideoInfo, VideoReader,
+    CodedOrder, CutShort, Damaged, Fault, Ffmpeg, FrameCondition, PairedReader, ReadOptions, SecondHalf, Timeline,
+    VideoError, VideoFrame, VideoInfo, VideoReader,
 };
 use thiserror::Error;
 
@@ -228,7 +228,7 @@ impl Videos {
         let source = self.source(video)?;
         let mut state = source.state();
         state.close();
-        let ranged = |(first, (count, reason)): (&u64, &(u64, String))| (*first..first + count, reason.clone());
+        let ranged = |fault: &Fault| (fault.frame..fault.frame + fault.count, fault.reason.clone());
         let announced = source.count;
         let (faults, beside) = (&state.damage.faults, &state.damage.beside);
         let further = state.has_more.then(|| more_than(announced));
@@ -240,7 +240,7 @@ impl Videos {
         let behind = further.map(|reason| (announced..announced + 1, reason));
         let (traced, reason) = source.traces(&state, &[faults, beside]);
         let traced = traced.into_iter().map(|frames| (frames, reason.to_owned()));
-        Ok(faults.iter().map(ranged).chain(traced).chain(behind).collect())
+        Ok(faults.values().map(ranged).chain(traced).chain(behind).collect())
     }
 
     /// Returns messages about frames that were damaged, and about frames that were not announced.
@@ -248,12 +248,12 @@ impl Videos {
         self.sources().values().flat_map(|source| source.complaints(makes_film)).collect()
     }
 
-    /// Returns what a video is; `None` for a stream of raw pictures.
     /// Returns whether the rate of a film varies.
     pub(crate) fn varies(&self, video: &Path) -> Result<bool, IoError> {
         Ok(self.info(video)?.is_some_and(|info| info.is_variable))
     }
 
+    /// Returns what a video is; `None` for a stream of raw pictures.
     pub(super) fn info(&self, video: &Path) -> Result<Option<VideoInfo>, IoError> {
         Ok(match &self.source(video)?.content {
             Content::Film { info, .. } => Some((**info).clone()),
@@ -495,7 +495,7 @@ impl Source {
     /// Returns the frames that may show traces of damaged ones, of those that were asked for, with the reason: all behind the first one
     /// where the file's own order cannot be read.
     fn traces(&self, state: &State, faults: &[&Faults]) -> (Vec<Range<u64>>, &'static str) {
-        let damaged: Vec<_> = ranges(faults.iter().copied().flatten()).collect();
+        let damaged: Vec<_> = ranges(faults.iter().flat_map(|faults| faults.values())).collect();
         let Some(first) = damaged.iter().min_by_key(|range| range.start) else { return (Vec::new(), TRACES) };
         let (traced, reason) = match self.traced(&damaged) {
             Some(traced) => (traced, TRACES),
