@@ -42,6 +42,28 @@ pub enum IoError {
         /// The file read.
         path: PathBuf,
     },
+    /// The first bytes of a file that was to be a picture are those of a video.
+    #[error(
+        "{}: a video by its first bytes, where a picture was expected; give it as a file whose name ends with .{extension}",
+        path.display()
+    )]
+    VideoContent {
+        /// The file read.
+        path: PathBuf,
+        /// Extension of such videos.
+        extension: &'static str,
+    },
+    /// The first bytes of a file that was to be a video are those of a picture.
+    #[error(
+        "{}: a {format} file by its first bytes, though its name is that of a video; name it {}", path.display(),
+        path.with_extension(format.own_extensions().first().unwrap_or(&"")).display()
+    )]
+    PictureContent {
+        /// The file read.
+        path: PathBuf,
+        /// Format of the picture.
+        format: Format,
+    },
     /// The file has no bytes, often because a program was interrupted or a disk was full.
     #[error("{}: an empty file (0 bytes), where an image was expected; make it again", path.display())]
     Empty {
@@ -328,9 +350,10 @@ fn unnamed(path: &Path) -> String {
 }
 
 /// Extensions of videos, which hold many pictures.
-const VIDEOS: [&str; 17] = [
-    "mp4", "m4v", "mov", "mkv", "webm", "avi", "mxf", "ts", "mts", "m2ts", "mpg", "wmv", "flv", "ogv", "gif", "insv",
-    "360",
+const VIDEOS: [&str; 43] = [
+    "mp4", "m4v", "mov", "qt", "3gp", "3g2", "mj2", "mkv", "webm", "avi", "divx", "mxf", "ts", "trp", "mts", "m2ts",
+    "mpg", "mpeg", "m2p", "vob", "m1v", "m2v", "wmv", "asf", "flv", "f4v", "ogv", "ogm", "gif", "nut", "dv", "ivf",
+    "obu", "h264", "264", "avc", "h265", "265", "hevc", "insv", "lrv", "osv", "360",
 ];
 
 /// Returns whether a file is a video by its name.

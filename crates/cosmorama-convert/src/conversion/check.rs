@@ -72,6 +72,7 @@ impl Conversion {
         videos::check(&settings, &job)?;
         diagnostics.extend(videos::idle(&settings, &job));
         diagnostics.extend(videos::without_times(&job)?);
+        diagnostics.extend(videos::single(&settings, &job));
         let diagnostics = diagnostics.clone();
         Ok(Checked { settings, content, job, pool, diagnostics, stages, start, allowed })
     }

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use crate::diagnostic::{Code, DAMAGED, Diagnostic, Result};
+use crate::diagnostic::{Code, DAMAGED, Diagnostic, FRAMES, Result, YAW};
 use crate::job::ConvertJob;
 use crate::settings::Conversion;
 use crate::source::video::{DamagedFrames, MadeVideos, RawKind, VideoPlan, VideoSource};
@@ -26,6 +26,20 @@ pub(super) fn idle(settings: &Conversion, job: &ConvertJob) -> Option<Diagnostic
         )
     };
     is_idle.then(|| Diagnostic::warning(Code::NoEffect, message()))
+}
+
+/// Returns the warning about a film of a single frame, where nobody asked for that.
+pub(super) fn single(settings: &Conversion, job: &ConvertJob) -> Option<Diagnostic> {
+    let has_film = |job: &ConvertJob| job.input.present().any(|(view, ..)| view.files.video().is_some());
+    let is_asked = settings.frames.is_some() || job.layers().any(has_film);
+    let (film, _) = outputs(job).into_iter().next().filter(|_| job.outputs.count() == Some(1) && !is_asked)?;
+    let message = || {
+        format!(
+            "{}: a film of a single frame, since no input has more; for a camera that turns, give {FRAMES} and {YAW} A..B",
+            film.display()
+        )
+    };
+    RawKind::of(&film).is_none().then(|| Diagnostic::warning(Code::NoEffect, message()))
 }
 
 /// Returns the warnings about films whose rate varies, of which pictures are made: they have no times.

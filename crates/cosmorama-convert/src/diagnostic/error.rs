@@ -221,7 +221,11 @@ fn of_file(error: &IoError) -> Code {
         | IoError::MissingFrames { .. } => Code::NotFound,
         IoError::FaceIsFolder { .. } => Code::Unreadable,
         IoError::Empty { .. } | IoError::Damaged { .. } | IoError::LeftOut { .. } => Code::Damaged,
-        IoError::UnknownContent { .. } | IoError::Unsupported { .. } | IoError::NotBuilt { .. } => Code::Unsupported,
+        IoError::UnknownContent { .. }
+        | IoError::VideoContent { .. }
+        | IoError::PictureContent { .. }
+        | IoError::Unsupported { .. }
+        | IoError::NotBuilt { .. } => Code::Unsupported,
         IoError::TooLarge { .. } => Code::Memory,
         IoError::UnknownExtension { .. } | IoError::CannotHold { .. } => Code::OutputFormat,
         IoError::Write { .. } => Code::Unwritable,

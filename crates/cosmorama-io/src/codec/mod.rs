@@ -30,8 +30,8 @@ pub use interface::is_contained;
 pub(crate) use interface::{Codec, Source, contained, is_beside_others};
 pub use write_options::{Compression, WriteOptions};
 
-use crate::IoError;
 use crate::header::Format;
+use crate::{IoError, is_video};
 
 /// Returns the codec of a format; `None` if this build has none.
 fn built(format: Format) -> Option<&'static dyn Codec> {
@@ -80,7 +80,30 @@ pub(crate) fn recognise(path: &Path, source: Source<'_>) -> Result<Format, IoErr
     let by_mark = Format::ALL.into_iter().find(|format| format.is_start(&start));
     // TGA files begin with no mark, so that only the name tells.
     let by_name = || Format::of_name(path).filter(|format| *format == Format::Tga);
-    by_mark.or_else(by_name).ok_or_else(|| IoError::UnknownContent { path: path.to_owned() })
+    by_mark.or_else(by_name).ok_or_else(|| {
+        let path = path.to_owned();
+        match video_extension(&start).filter(|_| !is_video(&path)) {
+            Some(extension) => IoError::VideoContent { path, extension },
+            None => IoError::UnknownContent { path },
+        }
+    })
+}
+
+/// Returns the extension of a video by its first bytes: MP4 and MOV by the brands of films (ISO/IEC 14496-12, MP4RA), Matroska by the
+/// mark of EBML (RFC 8794), and AVI.
+fn video_extension(start: &[u8]) -> Option<&'static str> {
+    match start {
+        [_, _, _, _, b'f', b't', b'y', b'p', brand @ ..] => match brand.first_chunk()? {
+            b"qt  " => Some("mov"),
+            b"mp41" | b"mp42" | b"avc1" | b"M4V " | b"dash" | [b'i', b's', b'o', _] | [b'3', b'g', b'p', _] => {
+                Some("mp4")
+            }
+            _ => None,
+        },
+        [0x1a, 0x45, 0xdf, 0xa3, ..] => Some("mkv"),
+        [b'R', b'I', b'F', b'F', _, _, _, _, b'A', b'V', b'I', b' ', ..] => Some("avi"),
+        _ => None,
+    }
 }
 
 impl Format {
@@ -123,6 +146,26 @@ impl Format {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_video_that_has_the_name_of_a_picture_is_told() {
+        let told = |start: &[u8], name: &str| {
+            let recognised = recognise(Path::new(name), &mut std::io::Cursor::new(start));
+            recognised.map_err(|error| error.to_string()).unwrap_err()
+        };
+        for (start, extension) in [
+            (&b"\0\0\0\x20ftypisom\0\0\x02\0"[..], ".mp4"),
+            (b"\0\0\0\x14ftypqt  \0\0\x02\0", ".mov"),
+            (b"\x1a\x45\xdf\xa3\xa3\x42\x86", ".mkv"),
+            (b"RIFF\x10\0\0\0AVI LIST", ".avi"),
+        ] {
+            assert!(told(start, "a.png").ends_with(&format!("whose name ends with {extension}")), "{extension}");
+            assert!(told(start, "a.mp4").contains("take it apart"));
+        }
+        for start in [&b"\0\0\0\x20ftypavif\0\0\0\0"[..], b"\0\0\0\x20ftyp", b"RIFF\x10\0\0\0WEBPVP8 "] {
+            assert!(told(start, "a.png").contains("not an image of a known format"));
+        }
+    }
 
     /// Checks both kinds of build: one without a feature names it, for files to read and to write, and one with it does neither.
     #[test]

@@ -6,9 +6,11 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::first_frame::FirstFrame;
-use super::stream::{Stream, ratio, text};
-use super::timeline::{CodedStream, PATIENCE};
-use super::{Announced, AnnouncedBy, CutShort, OtherStream, StreamKind, VideoInfo, is_boxes, structure};
+use super::stream::{Stream, delay, ratio, text};
+use super::timeline::{CodedStream, PATIENCE, begins_anywhere};
+use super::{
+    AVI, Announced, AnnouncedBy, CutShort, OtherStream, Places, StreamKind, Timeline, VideoInfo, is_boxes, structure,
+};
 use crate::ffmpeg::Said;
 use crate::{Ffmpeg, SpatialTags, VideoError};
 
@@ -44,8 +46,8 @@ impl Ffmpeg {
         let number = streams(&document).iter().position(is_chosen).ok_or_else(no_video)?;
         let container = text(&document["format"], "format_name").unwrap_or_default().to_owned();
         let container = container.as_str();
-        if container == "avi" || cut.is_some() && is_matroska(container) {
-            self.find_start(path, &mut document["streams"][number]);
+        if !is_boxes(container) && (cut.is_some() || !is_matroska(container)) {
+            self.find_start(path, container, &mut document["streams"][number]);
         }
         let streams = streams(&document);
         let unknown = |error| match cut {
@@ -62,7 +64,7 @@ impl Ffmpeg {
         info.chapters = document["chapters"].as_array().map_or(0, Vec::len);
         info.file_start = match container {
             // Its sound begins with the first frame, whatever the times of these.
-            "avi" => info.start as f64 * info.time_base.to_f64(),
+            AVI => info.start as f64 * info.time_base.to_f64(),
             _ => text(format, "start_time").and_then(|time| time.parse().ok()).unwrap_or(0.0),
         };
         info.metadata = metadata(format);
@@ -77,14 +79,22 @@ impl Ffmpeg {
     }
 
     /// Replaces the start of a stream by that of its first frame. Of a cut Matroska, ffprobe guesses it, or says none, where few are left; of
-    /// AVI it tells when that frame is decoded. What cannot be listed has no better one.
-    fn find_start(&self, path: &Path, stream: &mut Value) {
+    /// AVI and WMV it tells when that frame is decoded; of streams that begin between frames, the time of another. What cannot be listed has
+    /// no better one.
+    fn find_start(&self, path: &Path, container: &str, stream: &mut Value) {
         let index = stream["index"].as_u64().and_then(|index| u32::try_from(index).ok());
         let (Some(index), Some(time_base)) = (index, ratio(stream, "time_base")) else { return };
-        let coded = CodedStream { index, codec: text(stream, "codec_name").unwrap_or_default() };
-        if let Some(first) = self.first_times(path, coded).ok().and_then(|times| times.first().copied()) {
+        let codec = text(stream, "codec_name").unwrap_or_default();
+        let coded = CodedStream { index, codec, delay: delay(stream) };
+        if let Ok(Some(first)) = self.first_time(path, coded, container) {
+            let time = first as f64 * time_base.to_f64();
+            let seconds = |stream: &Value, name| text(stream, name)?.parse::<f64>().ok();
+            if let Some(duration) = seconds(stream, "duration").filter(|_| container != AVI) {
+                let end = seconds(stream, "start_time").unwrap_or(0.0) + duration;
+                stream["duration"] = Value::from((end - time).to_string());
+            }
             stream["start_pts"] = Value::from(first);
-            stream["start_time"] = Value::from((first as f64 * time_base.to_f64()).to_string());
+            stream["start_time"] = Value::from(time.to_string());
         }
     }
 
@@ -96,6 +106,9 @@ impl Ffmpeg {
             // A duration tells no number of frames where their rate varies.
             let is_told = |told: &Announced| told.by == AnnouncedBy::Count || !info.is_variable;
             info.announced = info.announced.filter(is_told);
+        }
+        if info.container == AVI && info.cut.is_none() {
+            self.count_places(info)?;
         }
         if is_boxes(&info.container) {
             match SpatialTags::read(&info.path) {
@@ -109,10 +122,41 @@ impl Ffmpeg {
             info.hdr.mastering = frame.hdr.mastering;
             info.hdr.light = info.hdr.light.or(frame.hdr.light);
         }
+        if begins_anywhere(&info.container) {
+            info.early = self.early_frames(info)?;
+        }
+        if is_bare(&info.container) {
+            info.notes.push(format!(
+                "it is a bare stream, of which no frame has a time; {} frames a second are taken; if it has others, give it them by ffmpeg \
+                 -r RATE -i FILE -c copy FILE.mp4",
+                info.rate
+            ));
+        }
         if info.colour.matrix.is_none() && !info.is_rgb && !info.is_grey {
             let name = crate::colour::Axis::Matrix.name(info.matrix());
             info.notes.push(format!("it names no matrix from YUV to RGB; by its size, {name} is taken"));
         }
+        Ok(())
+    }
+
+    /// Corrects the number of frames that an AVI announces: it counts places for them. Those before the first frame may be empty; where the
+    /// rate varies, others are, too. Its index tells which are lost instead.
+    fn count_places(&self, info: &mut VideoInfo) -> Result<(), VideoError> {
+        let late = u64::try_from(info.start).unwrap_or(0).saturating_sub(info.delay);
+        if !info.is_variable && late == 0 {
+            return Ok(());
+        }
+        let places = Places::read(&info.path, info.stream);
+        if !info.is_variable && places.empty_before(info.start) < late {
+            return Ok(());
+        }
+        let times = self.packet_times(info)?;
+        let even = Timeline::Even { start: info.start, time_base: info.time_base, rate: info.rate };
+        let shown = match times.last() {
+            Some(last) if !info.is_variable => even.frame(*last) + 1,
+            _ => places.filled().max(times.len() as u64),
+        };
+        info.announced = info.announced.map(|told| Announced { frames: told.frames.min(shown), ..told });
         Ok(())
     }
 }
@@ -144,6 +188,12 @@ fn document(path: &Path, said: &Said, cut: Option<CutShort>) -> Result<Value, Vi
 
 fn streams(document: &Value) -> &[Value] {
     document["streams"].as_array().map(Vec::as_slice).unwrap_or_default()
+}
+
+/// Returns whether a stream is bare, by ffprobe's name of its container: no frame has a time, and where it tells no rate, ffprobe takes 25
+/// frames a second.
+pub(crate) fn is_bare(container: &str) -> bool {
+    ["h264", "hevc", "obu"].contains(&container)
 }
 
 fn is_matroska(container: &str) -> bool {

@@ -1,5 +1,6 @@
 //! Properties of a video file, as ffprobe and the file's own structure tell them.
 
+mod avi;
 mod document;
 mod first_frame;
 mod pixel_format;
@@ -10,6 +11,8 @@ mod turn;
 
 use std::path::PathBuf;
 
+pub(crate) use avi::{AVI, Places};
+pub(crate) use document::is_bare;
 pub(crate) use structure::is_boxes;
 pub use timeline::Timeline;
 pub(crate) use timeline::{CodedFrame, shown_times};
@@ -77,6 +80,8 @@ pub struct VideoInfo {
     pub cut: Option<CutShort>,
     /// Seconds at which the file begins, from which ffmpeg counts when it seeks; in AVI, those of the first frame.
     pub(crate) file_start: f64,
+    /// Frames at the beginning that take after others before them, which were cut off; decoders make them up, or give none.
+    pub(crate) early: u64,
     /// Frames that a decoder keeps back, to give them in the order in which they are shown.
     pub(crate) delay: u64,
     /// Statements about the file that a user should hear, such as "no matrix is said; taken for BT.709"; a sentence each.

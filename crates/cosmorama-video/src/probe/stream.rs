@@ -47,6 +47,10 @@ impl<'a> Stream<'a> {
             found,
             expected: expected.to_owned(),
         };
+        if [&value["width"], &value["height"]].into_iter().all(|side| side.as_u64() == Some(0)) {
+            let reason = "no frame of it tells how large it is; it may end before its first key frame".to_owned();
+            return Err(VideoError::NoVideo { path: path.to_owned(), reason });
+        }
         let side = |name: &str| value[name].as_u64().filter(|side| (1..=LONGEST).contains(side));
         let (Some(width), Some(height)) = (side("width"), side("height")) else {
             let found = format!("its frames are of {}x{} pixels", value["width"], value["height"]);
@@ -108,10 +112,16 @@ impl<'a> Stream<'a> {
             metadata: Vec::new(),
             cut: None,
             file_start: 0.0,
-            delay: value["has_b_frames"].as_u64().unwrap_or(0).min(MOST_DELAY),
+            early: 0,
+            delay: delay(value),
             notes: Vec::new(),
         }
     }
+}
+
+/// Returns the frames that a decoder of the stream keeps back.
+pub(super) fn delay(value: &Value) -> u64 {
+    value["has_b_frames"].as_u64().unwrap_or(0).min(MOST_DELAY)
 }
 
 fn turn(value: &Value) -> Option<Turn> {

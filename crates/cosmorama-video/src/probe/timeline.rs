@@ -43,6 +43,15 @@ pub(crate) fn shown_times(coded: &[CodedFrame]) -> Vec<i64> {
     times
 }
 
+/// Option of ffprobe for the first packets.
+const FIRST: [&str; 2] = ["-read_intervals", "%+#120"];
+
+/// Returns whether streams of a container may begin between key frames, by ffprobe's name of it: those that are cut anywhere. Of bare H.264
+/// ffmpeg does not tell the numbers of frames then, and its decoder complains of each that it lacks.
+pub(super) fn begins_anywhere(container: &str) -> bool {
+    ["mpegts", "mpeg", "mpegvideo", "m4v", "hevc"].contains(&container)
+}
+
 /// Frames of a video at most: ten days of 120 a second.
 const MOST_FRAMES: usize = 100_000_000;
 
@@ -58,7 +67,7 @@ impl Timeline {
         }
     }
 
-    /// Returns the number of the frame whose time is nearest to a number of ticks. Times before the first frame are the first's, times
+    /// Returns the number of the frame whose time is nearest to a number of ticks; of two as near, the later. Times before the first frame are the first's, times
     /// beyond the end of a list the last's.
     pub fn frame(&self, time: i64) -> u64 {
         match self {
@@ -107,7 +116,7 @@ impl Timeline {
 fn nearest(times: &[i64], time: i64) -> usize {
     let after = times.partition_point(|known| *known < time);
     let distance = |index: usize| times.get(index).map_or(u64::MAX, |known| known.abs_diff(time));
-    if after > 0 && distance(after - 1) <= distance(after) {
+    if after > 0 && distance(after - 1) < distance(after) {
         after - 1
     } else {
         after.min(times.len().saturating_sub(1))
@@ -144,20 +153,67 @@ impl Ffmpeg {
 
     /// Reads the times of all coded frames that are shown, in their order.
     pub(crate) fn packet_times(&self, info: &VideoInfo) -> Result<Vec<i64>, VideoError> {
-        Ok(shown_times(&self.coded_frames(info, &[])?))
+        let stream = CodedStream::of(info);
+        let packets = self.packets(&info.path, stream, &[])?;
+        if packets.iter().all(|packet| packet.shown.or(packet.decoded).is_none()) {
+            // Those of bare streams, which follow each other.
+            let even = Timeline::Even { start: info.start, time_base: info.time_base, rate: info.rate };
+            return Ok((0..packets.len() as u64).filter_map(|frame| even.time(frame)).collect());
+        }
+        let mut times = stream.shown_times(&packets);
+        if begins_anywhere(&info.container) {
+            // Of those before the first key frame, some are lost without a word where decoding begins with it.
+            times.retain(|time| *time >= info.start);
+        }
+        Ok(times)
     }
 
     /// Reads the times of the first coded frames that are shown, up to 120, in their order.
     pub(super) fn first_times(&self, path: &Path, stream: CodedStream) -> Result<Vec<i64>, VideoError> {
-        Ok(shown_times(&self.coded_frames_of(path, stream, &["-read_intervals", "%+#120"])?))
+        Ok(stream.shown_times(&self.packets(path, stream, &FIRST)?))
     }
 
-    /// Reads what is said of all coded frames that have a time, in the order in which they are decoded.
+    /// Reads the time of the first frame. A stream that may begin anywhere is decoded from its first key frame on, if that is what it begins
+    /// with: frames that are shown before that take after others.
+    pub(super) fn first_time(
+        &self,
+        path: &Path,
+        stream: CodedStream,
+        container: &str,
+    ) -> Result<Option<i64>, VideoError> {
+        let packets = self.packets(path, stream, &FIRST)?;
+        let begins_with_key = begins_anywhere(container) && packets.first().is_some_and(|packet| packet.is_key);
+        let key = || timed(&packets).first().filter(|_| stream.tells_times(&packets)).map(|key| key.time);
+        Ok(if begins_with_key { key() } else { stream.shown_times(&packets).first().copied() })
+    }
+
+    /// Counts the frames that are shown before the first key frame, where the video does not begin with one.
+    pub(super) fn early_frames(&self, info: &VideoInfo) -> Result<u64, VideoError> {
+        /// Longer groups of pictures are of encoders that refresh them part by part, and make no key frames.
+        const LONGEST: &str = "%+#3000";
+        let stream = CodedStream::of(info);
+        let mut packets = self.packets(&info.path, stream, &FIRST)?;
+        let first_key = |packets: &[Packet]| packets.iter().position(|packet| packet.is_key);
+        if first_key(&packets).is_none() {
+            packets = self.packets(&info.path, stream, &["-read_intervals", LONGEST])?;
+        }
+        let Some(first) = first_key(&packets).filter(|first| *first > 0) else { return Ok(0) };
+        let key = timed(&packets[first..]).first().filter(|_| stream.tells_times(&packets)).map(|key| key.time);
+        Ok(match key {
+            Some(time) => self.timeline(info)?.frame(time),
+            None => first as u64,
+        })
+    }
+
+    /// Reads what is said of all coded frames, in the order in which they are decoded; nothing where the file does not tell when they
+    /// are shown.
     pub(crate) fn coded_frames(&self, info: &VideoInfo, part: &[&str]) -> Result<Vec<CodedFrame>, VideoError> {
-        self.coded_frames_of(&info.path, CodedStream::of(info), part)
+        let stream = CodedStream::of(info);
+        let packets = self.packets(&info.path, stream, part)?;
+        Ok(if stream.tells_times(&packets) { timed(&packets) } else { Vec::new() })
     }
 
-    fn coded_frames_of(&self, path: &Path, stream: CodedStream, part: &[&str]) -> Result<Vec<CodedFrame>, VideoError> {
+    fn packets(&self, path: &Path, stream: CodedStream, part: &[&str]) -> Result<Vec<Packet>, VideoError> {
         let index = stream.index.to_string();
         let entries = ["-select_streams", &index, "-show_entries", "packet=pts,dts,flags", "-of", "csv=p=0"];
         let arguments = [&entries, part].concat();
@@ -171,8 +227,7 @@ impl Ffmpeg {
             }
             Ok(())
         })?;
-        let are_told = packets.iter().any(|packet| packet.shown.is_some());
-        Ok(if are_told || is_mpeg(stream.codec) { timed(&packets) } else { Vec::new() })
+        Ok(packets)
     }
 }
 
@@ -181,11 +236,34 @@ impl Ffmpeg {
 pub(super) struct CodedStream<'a> {
     pub(super) index: u32,
     pub(super) codec: &'a str,
+    /// Frames that its decoder keeps back.
+    pub(super) delay: u64,
 }
 
 impl<'a> CodedStream<'a> {
     fn of(info: &'a VideoInfo) -> Self {
-        Self { index: info.stream, codec: &info.codec }
+        Self { index: info.stream, codec: &info.codec, delay: info.delay }
+    }
+
+    /// Returns whether a file tells when coded frames are shown, or it can be known.
+    fn tells_times(self, packets: &[Packet]) -> bool {
+        is_mpeg(self.codec) || packets.iter().any(|packet| packet.shown.is_some())
+    }
+
+    /// Returns the times of the frames that are shown, in their order. Where the file does not tell them, ffmpeg gives a frame the time at
+    /// which the one is decoded that comes so much later as the decoder keeps back; behind the last, it guesses.
+    fn shown_times(self, packets: &[Packet]) -> Vec<i64> {
+        if self.tells_times(packets) {
+            return shown_times(&timed(packets));
+        }
+        let mut decoded: Vec<i64> =
+            packets.iter().filter(|packet| packet.is_shown).filter_map(|packet| packet.decoded).collect();
+        decoded.sort_unstable();
+        decoded.dedup();
+        let &[.., before, last] = &*decoded else { return decoded };
+        let delay = usize::try_from(self.delay).unwrap_or(usize::MAX).min(decoded.len() - 1);
+        let guessed = (1..).map(|step| last.saturating_add(last.saturating_sub(before).saturating_mul(step)));
+        decoded.iter().copied().skip(delay).chain(guessed.take(delay)).collect()
     }
 }
 
@@ -258,6 +336,18 @@ mod tests {
     }
 
     #[test]
+    fn frames_of_which_no_time_is_told_are_shown_in_order() {
+        let packets = ["N/A,0,K_", "N/A,2,__", "N/A,3,__", "N/A,5,__"].map(Packet::of_line);
+        let times = |codec, delay| CodedStream { index: 0, codec, delay }.shown_times(&packets);
+        assert_eq!(times("h264", 0), [0, 2, 3, 5]);
+        assert_eq!(times("h264", 2), [3, 5, 7, 9]);
+        assert_eq!(times("h264", 16), [5, 7, 9, 11]);
+        assert_eq!(CodedStream { index: 0, codec: "h264", delay: 2 }.shown_times(&packets[..1]), [0]);
+        let unordered = ["N/A,5,K_", "N/A,3,__", "N/A,3,__", "N/A,4,_D"].map(Packet::of_line);
+        assert_eq!(CodedStream { index: 0, codec: "h264", delay: 1 }.shown_times(&unordered), [5, 7]);
+    }
+
+    #[test]
     fn times_and_numbers_are_each_others_inverse() {
         let time_base = Ratio::parse("1/1000").unwrap();
         let even = Timeline::Even { start: -40, time_base, rate: Ratio::parse("30000/1001").unwrap() };
@@ -269,6 +359,8 @@ mod tests {
             assert_eq!(listed.frame(listed.time(frame).unwrap()), frame);
         }
         assert_eq!((listed.time(4), listed.frame(1000), listed.frame(-9)), (None, 3, 0));
+        // ffmpeg guesses the times of the last, perhaps half a frame too early.
+        assert_eq!(listed.frame(5), 1, "between 0 and 10");
     }
 
     #[test]

@@ -84,8 +84,10 @@ impl Decoder {
             // Decoders of several frames at a time would not tell which of them they mean.
             command.args(["-thread_type", "slice"]);
         }
-        if options.threads > 0 {
-            command.args(["-threads", &options.threads.to_string()]);
+        // Of H.264 that begins between key frames, several threads at a time would give no frame at all.
+        let threads = if info.early > 0 && start.seek.is_none() { 1 } else { options.threads };
+        if threads > 0 {
+            command.args(["-threads", &threads.to_string()]);
         }
         if let Some(seconds) = start.seek {
             command.args(["-noaccurate_seek", "-ss", &format!("{seconds:.6}")]);

@@ -6,7 +6,7 @@ use cosmorama::raster::EncodedImage;
 
 use super::reader::MARGIN;
 use super::{CodedOrder, Damaged, Fault, ReadOptions, VideoReader};
-use crate::probe::CodedFrame;
+use crate::probe::{CodedFrame, is_bare};
 use crate::{AnnouncedBy, Ffmpeg, Timeline, VideoError, VideoInfo};
 
 /// A video in which damage is looked for.
@@ -117,7 +117,9 @@ impl Looked<'_> {
         const BEHIND: f64 = 4.0;
         /// Seconds before it: the seek ends at a key frame before that.
         const BEFORE: f64 = 2.0;
-        let Some(time) = self.timeline.time(frame) else { return Ok(Vec::new()) };
+        let Some(time) = self.timeline.time(frame).filter(|_| !is_bare(&self.info.container)) else {
+            return Ok(Vec::new());
+        };
         let seconds = time as f64 * self.info.time_base.to_f64();
         let part = format!("{:.3}%{:.3}", (seconds - MARGIN - BEFORE).max(0.0), (seconds + BEHIND).max(0.0));
         self.ffmpeg.coded_frames(self.info, &["-read_intervals", &part])

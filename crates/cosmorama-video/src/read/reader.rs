@@ -2,6 +2,7 @@ use super::decoder::{Decoded, Decoder, Ended, Next, Start};
 use super::filters::{Pixels, Raw};
 use super::preceding::{Beside, DELAY, Damage, Looked, PATIENCE};
 use super::{Damaged, Fault, FrameCondition, ReadOptions, VideoFrame};
+use crate::probe::{AVI, Places};
 use crate::{Announced, AnnouncedBy, CutShort, Ffmpeg, Timeline, VideoError, VideoInfo};
 use cosmorama::raster::{EncodedImage, FramePool};
 
@@ -20,6 +21,8 @@ pub struct VideoReader {
     ahead: Option<Ahead>,
     /// Picture of the frame before, where it may be held.
     held: Option<EncodedImage>,
+    /// Places for frames in an AVI, some of which may be empty.
+    places: Places,
     /// Message of an error for which no frame is missed yet.
     complaint: Option<Complaint>,
     /// Number of frames, found at their end.
@@ -95,6 +98,8 @@ impl VideoReader {
         let first = options.frames.as_ref().map_or(0, |range| *range.start());
         let start = start(info, &timeline, first);
         let decoder = Decoder::start(ffmpeg, info, &options, start)?;
+        let has_places = info.container == AVI && !info.is_variable;
+        let places = if has_places { Places::read(&info.path, info.stream) } else { Places::default() };
         Ok(Self {
             ffmpeg: ffmpeg.clone(),
             info: info.clone(),
@@ -104,6 +109,7 @@ impl VideoReader {
             expected: first,
             ahead: None,
             held: None,
+            places,
             complaint: None,
             total: None,
             last: 0,
@@ -183,7 +189,11 @@ impl VideoReader {
                 Some(Ahead { index, frame }) if index == self.expected && !frame.is_corrupt => {
                     Some(self.whole(index, frame))
                 }
+                Some(ahead) if self.is_behind_empty_place(&ahead) => self.repeat_before(Some(ahead))?,
                 Some(ahead) => self.gap(ahead)?,
+                None if self.expected < self.total.unwrap_or(0) && self.is_at_empty_place() => {
+                    self.repeat_before(None)?
+                }
                 None if self.expected < self.total.unwrap_or(0) => self.gap_at_the_end()?,
                 None => return Ok(None),
             };
@@ -195,7 +205,7 @@ impl VideoReader {
 
     fn whole(&mut self, index: u64, frame: Decoded) -> VideoFrame {
         self.expected = index + 1;
-        if self.options.damaged == Damaged::Hold {
+        if self.options.damaged == Damaged::Hold || self.places.has_empty() {
             self.held = Some(frame.image.clone());
         }
         let time = frame.time.unwrap_or_else(|| self.time(index));
@@ -230,6 +240,9 @@ impl VideoReader {
                     self.restart(start(&self.info, &self.timeline, from).seek)?;
                     continue;
                 }
+            }
+            if index < self.info.early {
+                (frame.is_corrupt, frame.complaint) = (true, None);
             }
             if let Some(Fault { reason, .. }) = self.own.take() {
                 frame.is_corrupt |= index == self.expected;
@@ -351,7 +364,7 @@ impl VideoReader {
         let end = if is_corrupt { ahead.index + 1 } else { ahead.index };
         if !self.is_told(first) {
             let usual = if is_corrupt { "it was decoded with errors" } else { "there is no picture of its time" };
-            let reason = self.complaint.take().map_or_else(|| usual.to_owned(), |complaint| complaint.text);
+            let reason = self.reason(first, usual);
             let count = end.min(self.end_of_range()).saturating_sub(first).max(1);
             self.tell(Fault { frame: first, count, reason, is_given: false })?;
         }
@@ -370,6 +383,41 @@ impl VideoReader {
         self.expected = end;
         self.ahead = (!is_corrupt).then_some(ahead);
         Ok(None)
+    }
+
+    /// Returns whether the next frame comes behind a place that is left empty.
+    fn is_behind_empty_place(&self, ahead: &Ahead) -> bool {
+        let count = ahead.index.saturating_sub(self.expected);
+        !ahead.frame.is_corrupt && (1..=LONGEST_HOLD).contains(&count) && self.is_at_empty_place()
+    }
+
+    /// Returns whether the next frame is a place that an AVI leaves empty, behind a frame that is whole: there the frame before is shown on.
+    fn is_at_empty_place(&self) -> bool {
+        let is_told =
+            self.is_told(self.expected) || self.expected.checked_sub(1).is_some_and(|frame| self.is_told(frame));
+        let is_empty = |time| self.places.is_empty(time, self.info.delay);
+        self.complaint.is_none() && !is_told && self.timeline.time(self.expected).is_some_and(is_empty)
+    }
+
+    /// Repeats the frame before; one that is the first of those that are asked for is decoded.
+    fn repeat_before(&mut self, ahead: Option<Ahead>) -> Result<Option<VideoFrame>, VideoError> {
+        if self.held.is_none() && self.looks_again && self.expected == self.first_asked() {
+            self.held = self.looked().shown_before(self.expected)?;
+        }
+        let Some(image) = self.held.clone() else {
+            return match ahead {
+                Some(ahead) => self.gap(ahead),
+                None => self.gap_at_the_end(),
+            };
+        };
+        self.ahead = ahead;
+        Ok(Some(VideoFrame { condition: FrameCondition::Whole, ..self.hold(image) }))
+    }
+
+    /// Takes the reason for which a frame is missing or damaged: what was heard, or else what is usual.
+    fn reason(&mut self, frame: u64, usual: &str) -> String {
+        let heard = self.complaint.take().map(|complaint| complaint.text);
+        if frame < self.info.early { EARLY.to_owned() } else { heard.unwrap_or_else(|| usual.to_owned()) }
     }
 
     /// Returns whether a frame belongs to a gap that was told already.
@@ -399,19 +447,17 @@ impl VideoReader {
         if !can_go_on && !is_named {
             return Err(fewer());
         }
-        let Some(image) = self.held.clone().filter(|_| can_go_on) else {
+        let is_shown = can_go_on && self.options.damaged == Damaged::Hold;
+        let image = self.held.clone().filter(|_| is_shown);
+        if image.is_none() {
             self.total = None;
-            let reason = self.complaint.take().map_or_else(|| ENDS.to_owned(), |complaint| complaint.text);
-            let count = announced.min(self.end_of_range()) - found;
-            self.tell(Fault { frame: found, count, reason, is_given: false })?;
-            return Ok(None);
-        };
-        if !self.is_told(found) {
-            let reason = self.complaint.take().map_or_else(|| ENDS.to_owned(), |complaint| complaint.text);
+        }
+        if image.is_none() || !self.is_told(found) {
+            let reason = self.reason(found, ENDS);
             let count = announced.min(self.end_of_range()) - found;
             self.tell(Fault { frame: found, count, reason, is_given: false })?;
         }
-        Ok(Some(self.hold(image)))
+        Ok(image.map(|image| self.hold(image)))
     }
 
     fn hold(&mut self, image: EncodedImage) -> VideoFrame {
@@ -484,8 +530,11 @@ impl VideoReader {
         let announced = self.info.announced;
         Ok(match (self.timeline.frames(), announced) {
             (_, Some(Announced { frames, by: AnnouncedBy::Count })) if self.info.cut.is_some() => frames,
+            (Some(frames), Some(told)) if self.info.container == AVI => frames.max(told.frames),
             (Some(frames), _) => frames,
-            (None, Some(Announced { frames, by: AnnouncedBy::Count })) if self.expected < frames => {
+            (None, Some(Announced { frames, by: AnnouncedBy::Count }))
+                if self.expected < frames && !self.places.has_empty() =>
+            {
                 // Some frames may be there for others alone, as where a video was cut without coding it anew.
                 frames.min(self.ffmpeg.packet_times(&self.info)?.len() as u64)
             }
@@ -501,6 +550,9 @@ impl VideoReader {
         })
     }
 }
+
+/// Reason of a frame that lacks what it takes after.
+const EARLY: &str = "it comes before the first key frame: the video was cut out between key frames";
 
 /// Reason of a frame that is missing where nothing is said of it.
 const ENDS: &str = "the video ends before it";

@@ -59,7 +59,8 @@ impl CodedOrder {
 /// frame, which is shown before one that is decoded before it, is never held back.
 fn painted(coded: &[CodedFrame], timeline: &Timeline, damaged: &[Range<u64>]) -> Vec<u64> {
     let mut latest = i64::MIN;
-    let mut is_after_damaged = false;
+    // Before the first key frame, nothing is decoded that could be held back.
+    let (mut is_after_damaged, mut has_key) = (false, false);
     let mut found = Vec::new();
     for frame in coded {
         if frame.time < latest {
@@ -69,7 +70,8 @@ fn painted(coded: &[CodedFrame], timeline: &Timeline, damaged: &[Range<u64>]) ->
         let number = timeline.frame(frame.time);
         let is_damaged = holding(damaged, number).is_some();
         found.extend((is_after_damaged && !is_damaged && frame.is_shown).then_some(number));
-        is_after_damaged = is_damaged;
+        has_key |= frame.is_key;
+        is_after_damaged = is_damaged && has_key;
     }
     found
 }
@@ -92,7 +94,10 @@ fn traces(coded: &[CodedFrame], timeline: &Timeline, damaged: &[Range<u64>]) -> 
     let mut found = Vec::new();
     for (index, (frame, number)) in coded.iter().zip(numbers).enumerate() {
         if frame.is_shown && holding(&damaged, number).is_some() {
-            doubtful = Doubtful::UpToKey;
+            // Those that are decoded behind a key frame and shown before it are of no use to later ones.
+            if !matches!(doubtful, Doubtful::Before(time) if frame.time < time) {
+                doubtful = Doubtful::UpToKey;
+            }
             continue;
         }
         if lost.contains(&index) {

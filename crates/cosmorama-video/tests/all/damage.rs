@@ -434,3 +434,124 @@ fn a_video_cut_without_coding_is_whole() {
     assert!(found.windows(2).all(|pair| pair[1].index == pair[0].index + 1));
     assert!((60..=65).contains(&found.len()), "{}", found.len());
 }
+
+/// An empty place in an AVI repeats the frame before. Its index tells whether there was one.
+#[test]
+fn a_frame_that_an_avi_lost_is_no_empty_place() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.avi");
+    run(&format!("{} -f lavfi -i sine=duration=2 -c:v mjpeg -c:a libmp3lame", moving(64, 32, "25", 40)), &path);
+    let whole = frames(&ffmpeg, &path, ReadOptions::default()).unwrap();
+    assert!(whole.len() == 41 && whole[1].image == whole[0].image);
+    let (place, _) = packet(&path, 20);
+    let mut bytes = std::fs::read(&path).unwrap();
+    assert_eq!(&bytes[place - 8..place - 4], b"00dc");
+    bytes[place - 4..place].fill(0);
+    std::fs::write(&path, bytes).unwrap();
+    let error = frames(&ffmpeg, &path, ReadOptions::default()).unwrap_err();
+    assert!(matches!(error, VideoError::DamagedFrame { frame: 21, .. }), "{error}");
+    let held = frames(&ffmpeg, &path, with(Damaged::Hold)).unwrap();
+    assert!(held[21].condition == FrameCondition::Held && held[22..] == whole[22..]);
+    // Without the index, nothing tells that a place is empty.
+    let mut bytes = std::fs::read(&path).unwrap();
+    let index = bytes.windows(4).rposition(|name| name == b"idx1").unwrap();
+    bytes[index..index + 4].copy_from_slice(b"JUNK");
+    std::fs::write(&path, bytes).unwrap();
+    let error = frames(&ffmpeg, &path, ReadOptions::default()).unwrap_err();
+    assert!(matches!(error, VideoError::DamagedFrame { frame: 1, .. }), "{error}");
+}
+
+/// Two places at the end of an AVI are empty: what they repeat is whole, but not where another frame stands for a damaged one.
+#[test]
+fn empty_places_at_the_end_of_an_avi_repeat_its_last_frame() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.avi");
+    run(&format!("{} -c:v mjpeg", moving(64, 32, "25", 40)), &path);
+    let mut bytes = std::fs::read(&path).unwrap();
+    let index = bytes.windows(4).rposition(|name| name == b"idx1").unwrap();
+    for number in [38, 39] {
+        let (place, _) = packet(&path, number);
+        bytes[place - 4..place].fill(0);
+        let entry = index + 8 + 16 * number;
+        bytes[entry + 12..entry + 16].fill(0);
+    }
+    std::fs::write(&path, bytes).unwrap();
+    let whole = frames(&ffmpeg, &path, ReadOptions::default()).unwrap();
+    assert_eq!(whole.iter().map(|frame| frame.index).collect::<Vec<_>>(), (0..40).collect::<Vec<_>>());
+    assert!(whole[38..].iter().all(|frame| frame.image == whole[37].image && frame.condition == FrameCondition::Whole));
+    assert!(frames(&ffmpeg, &path, of(38, 39)).unwrap() == whole[38..]);
+    damage(&path, 37);
+    let held = frames(&ffmpeg, &path, with(Damaged::Hold)).unwrap();
+    assert_eq!(held.len(), 40);
+    assert!(held[37..].iter().all(|frame| frame.condition == FrameCondition::Held), "{:?}", held[38].condition);
+}
+
+/// Recordings begin at key frames, before whose open group some frames are lost without a word, as players do.
+#[test]
+fn what_begins_at_a_key_frame_is_whole() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let hevc =
+        "-c:v libx265 -preset ultrafast -x265-params log-level=none:keyint=25:min-keyint=25:bframes=2:scenecut=0";
+    for (name, coding) in [("a.ts", "-c:v mpeg2video -bf 2 -g 25 -sc_threshold 1000000000"), ("b.ts", hevc)] {
+        let path = folder.path().join(name);
+        run(&format!("{} {coding}", moving(128, 64, "25", 75)), &path);
+        let whole = frames(&ffmpeg, &path, ReadOptions::default()).unwrap();
+        let lines = probed(&path, "-select_streams v:0 -show_entries packet=flags -of csv=p=0");
+        let is_key = |line: &str| line.starts_with('K');
+        let lines: Vec<&str> = lines.lines().filter(|line| !line.is_empty()).collect();
+        let (key, _) = lines.iter().enumerate().filter(|(_, line)| is_key(line)).nth(2).unwrap();
+        let (place, _) = packet(&path, key);
+        let bytes = std::fs::read(&path).unwrap();
+        std::fs::write(&path, &bytes[place..]).unwrap();
+        let found = frames(&ffmpeg, &path, ReadOptions::default()).unwrap();
+        assert!((23..26).contains(&found.len()), "{name}: {}", found.len());
+        let first = whole.len() - found.len();
+        let same = found.iter().zip(&whole[first..]).all(|(part, whole)| part.image == whole.image);
+        assert!(same, "{name}");
+    }
+}
+
+/// A recording that was cut out begins with frames that take after others before it.
+#[test]
+fn what_begins_between_key_frames_is_damaged_up_to_the_first() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let hevc =
+        "-c:v libx265 -preset ultrafast -x265-params log-level=none:keyint=25:min-keyint=25:bframes=2:scenecut=0";
+    for (name, coding, key) in [
+        ("a.ts", "-c:v libx264 -bf 2 -g 25 -x264-params scenecut=0", 25),
+        ("b.ts", "-c:v mpeg2video -bf 2 -g 25 -sc_threshold 1000000000", 27),
+        ("c.ts", hevc, 25),
+    ] {
+        let path = folder.path().join(name);
+        run(&format!("{} {coding}", moving(128, 64, "25", 75)), &path);
+        let whole = frames(&ffmpeg, &path, ReadOptions::default()).unwrap();
+        let (place, _) = packet(&path, 10);
+        let bytes = std::fs::read(&path).unwrap();
+        std::fs::write(&path, &bytes[place..]).unwrap();
+        let info = ffmpeg.probe(&path).unwrap();
+        let mut reader = VideoReader::open(&ffmpeg, &info, with(Damaged::Hold)).unwrap();
+        let mut found = Vec::new();
+        while let Some(frame) = reader.next_frame().unwrap() {
+            found.push(frame);
+        }
+        let lost = whole.len() - found.len();
+        assert!((8..=12).contains(&lost), "{name}: {lost}");
+        let numbers: Vec<u64> = found.iter().map(|frame| frame.index).collect();
+        assert_eq!(numbers, (0..found.len() as u64).collect::<Vec<_>>(), "{name}");
+        for frame in &found {
+            let number = frame.index as usize + lost;
+            let is_whole = frame.condition == FrameCondition::Whole;
+            assert_eq!(is_whole, number >= key, "{name}: frame {number}");
+            assert!(!is_whole || frame.image == whole[number].image, "{name}: frame {number}");
+        }
+        let damaged: Vec<_> = reader.faults().iter().map(|fault| fault.frame..fault.frame + fault.count).collect();
+        assert_eq!(ffmpeg.coded_order(&info).unwrap().unwrap().traces(&damaged), [0; 0], "{name}");
+        let error = frames(&ffmpeg, &path, ReadOptions::default()).unwrap_err().to_string();
+        assert!(error.contains("frame 0") && error.contains("cut out between key frames"), "{name}: {error}");
+        assert!(frames(&ffmpeg, &path, of(20, 40)).unwrap() == found[20..=40], "{name}");
+    }
+}

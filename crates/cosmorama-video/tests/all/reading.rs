@@ -1,7 +1,7 @@
 //! Frames by their numbers.
 
 use cosmorama::raster::{Channels, Depth, Samples};
-use cosmorama_video::{AnnouncedBy, ReadOptions, StreamKind, VideoError, VideoReader};
+use cosmorama_video::{AnnouncedBy, FrameCondition, ReadOptions, StreamKind, VideoError, VideoReader};
 
 use crate::common::{ffmpeg, frames, moving, of, raw, run};
 
@@ -92,6 +92,37 @@ fn ranges_are_exact() {
         assert_eq!(all.iter().map(|frame| frame.index).collect::<Vec<_>>(), (0..200).collect::<Vec<_>>(), "{name}");
         assert!(all.windows(2).all(|pair| pair[0].time < pair[1].time), "{name}");
         for (first, last) in [(0, 0), (7, 13), (49, 51), (61, 63), (120, 122), (198, 199)] {
+            let part = frames(&ffmpeg, &path, of(first, last)).unwrap();
+            assert!(part == all[first as usize..=last as usize], "{name} {first} to {last}");
+        }
+    }
+}
+
+/// Containers that tell no times of their frames, or only those at which they are decoded, and AVI, which leaves places empty. There the
+/// frame before is shown on: an encoder of sound that begins early is enough for that.
+#[test]
+fn every_frame_is_read_whatever_its_container_tells() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    for (name, arguments, empty) in [
+        ("a.avi", "SOUND -c:v mpeg4 -g 12 -bf 0 -c:a libmp3lame", 1),
+        ("b.avi", "SOUND -c:v libx264 -bf 0 -c:a libmp3lame", 1),
+        ("c.avi", "SOUND -c:v libx264 -bf 2 -c:a libmp3lame", 0),
+        ("d.avi", "SOUND -c:v mpeg4 -bf 2 -c:a libmp3lame", 0),
+        ("e.wmv", "-c:v libx264 -bf 2", 0),
+        ("f.h264", "-c:v libx264 -bf 2", 0),
+        ("g.m2v", "-c:v mpeg2video -bf 2", 0),
+        ("h.m2p", "-c:v mpeg2video -bf 2 -f mpeg", 0),
+    ] {
+        let path = folder.path().join(name);
+        let arguments = arguments.replace("SOUND", "-f lavfi -i sine=duration=4");
+        run(&format!("{} {arguments} -threads 2", moving(64, 32, "25", 100)), &path);
+        let all = frames(&ffmpeg, &path, ReadOptions::default()).unwrap();
+        let numbers: Vec<u64> = all.iter().map(|frame| frame.index).collect();
+        assert_eq!(numbers, (0..100 + empty).collect::<Vec<_>>(), "{name}");
+        assert!(all.iter().all(|frame| frame.condition == FrameCondition::Whole), "{name}");
+        assert!(empty == 0 || all[1].image == all[0].image, "{name}");
+        for (first, last) in [(0, 1), (1, 3), (20, 21), (60, 62), (97, 99)] {
             let part = frames(&ffmpeg, &path, of(first, last)).unwrap();
             assert!(part == all[first as usize..=last as usize], "{name} {first} to {last}");
         }

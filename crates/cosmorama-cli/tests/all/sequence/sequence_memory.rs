@@ -255,6 +255,8 @@ fn explanations_hold_memory_and_frames_against_what_is_asked() {
         (&cost[0]["picture_memory_is_allowed"], &cost[1]["picture_memory_is_allowed"]),
         (&true.into(), &false.into())
     );
+    assert_eq!(cost[1]["sequence_memory_is_allowed"], false);
+    assert!(cost[1]["sequence_memory_bytes"].as_u64().unwrap() > 100 << 20, "what is needed, not what is allowed");
     assert_eq!(cost[0]["frames"], 50_000);
     let hours = |key: &str| cost[0][key].as_f64().unwrap();
     assert!((hours("core_hours") * 3600.0 / hours("cpu_seconds_a_frame") - 50_000.0).abs() < 0.1);

@@ -464,3 +464,32 @@ fn pictures_of_a_film_of_varying_rate_are_told_to_lose_its_times() {
     assert_says(&to("f_##.png"), &["warning: film.mp4: its rate varies, and numbered pictures have no times"]);
     assert!(!to("dome.mkv").contains("have no times"));
 }
+
+/// What a file holds counts, and not its name; and a film of one frame is rarely meant.
+#[cfg(feature = "video")]
+#[test]
+fn films_and_pictures_that_are_taken_for_each_other_are_told() {
+    if !super::films::has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    bench.save("sky.png", &picture(1, 64, 32));
+    super::films::film(&bench, "film.avi", 3);
+    std::fs::copy(bench.path("film.avi"), bench.path("film.png")).unwrap();
+    std::fs::copy(bench.path("sky.png"), bench.path("sky.mp4")).unwrap();
+    let run = |input: &str, output: &str, further: &[&str]| {
+        let done = bench.run(&[&["convert", input, output, "--to", "fulldome", "--size", "16"], further].concat());
+        (done.status.code(), text(&done.stderr))
+    };
+    let (code, told) = run("film.png", "a.png", &[]);
+    assert_eq!(code, Some(1));
+    assert_says(&told, &["error: film.png: a video by its first bytes", "whose name ends with .avi"]);
+    let (code, told) = run("sky.mp4", "b.png", &[]);
+    assert_eq!(code, Some(1));
+    assert_says(&told, &["error: sky.mp4: a PNG file by its first bytes", "name it sky.png"]);
+    let (code, told) = run("sky.png", "one.mkv", &[]);
+    assert_eq!(code, Some(0));
+    assert_says(&told, &["warning: one.mkv: a film of a single frame, since no input has more"]);
+    let (code, told) = run("film.avi", "two.mkv", &["--frames", "1"]);
+    assert!(code == Some(0) && !told.contains("a single frame"), "{told}");
+}

@@ -163,11 +163,16 @@ impl Explanation {
         let raw = pixels_in(scene.sizes.iter().copied()).saturating_mul(files.pixel_bytes(&scene.input));
         let memory =
             |bytes: u64, needs: FrameNeeds| CostedMemory { bytes, is_allowed: self.memory.allows_frame(needs) };
+        // Where not one frame fits, no room is left that could be counted: then, what one needs.
+        let sequence = match memory(needs.sequence_bytes(depth, kept.bytes, threads), least) {
+            memory if memory.is_allowed => memory,
+            refused => CostedMemory { bytes: least.picture_bytes(threads), ..refused },
+        };
         SequenceCost {
             files,
             cpu_seconds: seconds((files, kept.part), scene, raw),
             picture: memory(alone.picture_bytes(threads), alone),
-            sequence: memory(needs.sequence_bytes(depth, kept.bytes, threads), least),
+            sequence,
             frame_bytes: compressed(raw, files.format(), None),
         }
     }

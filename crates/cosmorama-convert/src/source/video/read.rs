@@ -269,8 +269,10 @@ impl Videos {
         let source = Arc::new(match RawKind::of(video) {
             Some(kind) => Source::raw(kind, video, &self.files)?,
             None => {
-                // The error of a file that is not there is the same as for pictures.
-                drop(cosmorama_io::open(video)?);
+                // The error of a file that is not there is the same as for pictures; a picture is no film, whatever its name.
+                if let Ok(Header { format, .. }) = cosmorama_io::probe_from(cosmorama_io::open(video)?, video) {
+                    return Err(IoError::PictureContent { path: video.to_owned(), format });
+                }
                 Source::film(self.ffmpeg()?, video, self.damaged).map_err(foreign)?
             }
         });
