@@ -38,11 +38,6 @@ impl Places {
         self.is_empty.iter().take(count).filter(|is_empty| **is_empty).count() as u64
     }
 
-    /// Returns whether any place is empty.
-    pub(crate) fn has_empty(&self) -> bool {
-        self.is_empty.contains(&true)
-    }
-
     /// Returns whether a frame of this time is a place that is left empty. A tick is a place; decoders that keep frames back give times that
     /// are later by so many.
     pub(crate) fn is_empty(&self, time: i64, delay: u64) -> bool {
@@ -114,7 +109,6 @@ mod tests {
     #[test]
     fn what_the_index_does_not_tell_is_not_empty() {
         let places = Places { is_empty: vec![false, true, false, false] };
-        assert!(places.has_empty() && !Places::default().has_empty());
         assert_eq!((places.filled(), [-1, 1, 2, 9].map(|time| places.empty_before(time))), (3, [0, 0, 1, 1]));
         assert_eq!([-1, 0, 1, 2, 3, 4].map(|time| places.is_empty(time, 0)), [false, false, true, false, false, false]);
         assert_eq!([0, 1, 2, 3].map(|time| places.is_empty(time, 1)), [false, true, true, false]);

@@ -205,7 +205,7 @@ impl VideoReader {
 
     fn whole(&mut self, index: u64, frame: Decoded) -> VideoFrame {
         self.expected = index + 1;
-        if self.options.damaged == Damaged::Hold || self.places.has_empty() {
+        if self.options.damaged == Damaged::Hold || self.is_empty_place(self.expected) {
             self.held = Some(frame.image.clone());
         }
         let time = frame.time.unwrap_or_else(|| self.time(index));
@@ -395,8 +395,11 @@ impl VideoReader {
     fn is_at_empty_place(&self) -> bool {
         let is_told =
             self.is_told(self.expected) || self.expected.checked_sub(1).is_some_and(|frame| self.is_told(frame));
-        let is_empty = |time| self.places.is_empty(time, self.info.delay);
-        self.complaint.is_none() && !is_told && self.timeline.time(self.expected).is_some_and(is_empty)
+        self.complaint.is_none() && !is_told && self.is_empty_place(self.expected)
+    }
+
+    fn is_empty_place(&self, frame: u64) -> bool {
+        self.timeline.time(frame).is_some_and(|time| self.places.is_empty(time, self.info.delay))
     }
 
     /// Repeats the frame before; one that is the first of those that are asked for is decoded.
@@ -533,7 +536,7 @@ impl VideoReader {
             (Some(frames), Some(told)) if self.info.container == AVI => frames.max(told.frames),
             (Some(frames), _) => frames,
             (None, Some(Announced { frames, by: AnnouncedBy::Count }))
-                if self.expected < frames && !self.places.has_empty() =>
+                if self.expected < frames && self.info.container != AVI =>
             {
                 // Some frames may be there for others alone, as where a video was cut without coding it anew.
                 frames.min(self.ffmpeg.packet_times(&self.info)?.len() as u64)

@@ -452,8 +452,11 @@ impl Source {
     }
 
     fn without(&self, asked: u64) -> VideoError {
-        let last = self.count.saturating_sub(1);
-        VideoError::NoSuchFrame { path: self.name.clone(), asked, last }
+        let (path, announced) = (self.name.clone(), self.count);
+        match &self.content {
+            Content::Film { .. } if asked < announced => VideoError::FewerFrames { path, found: asked, announced },
+            _ => VideoError::NoSuchFrame { path, asked, last: announced.saturating_sub(1) },
+        }
     }
 
     /// Reads to the end of the video if all frames have been read, so that what its decoder says last is heard.
