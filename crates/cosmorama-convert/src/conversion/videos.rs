@@ -18,8 +18,7 @@ pub(super) fn check(settings: &Conversion, job: &ConvertJob) -> Result<()> {
 /// Returns a warning where an answer to damaged frames is given, and no input is a film.
 pub(super) fn idle(settings: &Conversion, job: &ConvertJob) -> Option<Diagnostic> {
     let is_film = |path: &Path| RawKind::of(path).is_none();
-    let has_film = |job: &ConvertJob| job.input.present().any(|(view, ..)| view.files.video().is_some_and(is_film));
-    let is_idle = settings.video.damaged != DamagedFrames::Error && !job.layers().any(has_film);
+    let is_idle = settings.video.damaged != DamagedFrames::Error && !takes(job, is_film);
     let message = || {
         format!(
             "{DAMAGED} has no effect: no input is a film; a damaged picture, or a stream of pictures that is cut, is an error"
@@ -28,10 +27,14 @@ pub(super) fn idle(settings: &Conversion, job: &ConvertJob) -> Option<Diagnostic
     is_idle.then(|| Diagnostic::warning(Code::NoEffect, message()))
 }
 
+/// Returns whether some of a job's inputs are such videos.
+fn takes(job: &ConvertJob, is_such: impl Fn(&Path) -> bool) -> bool {
+    job.layers().any(|job| job.input.present().any(|(view, ..)| view.files.video().is_some_and(&is_such)))
+}
+
 /// Returns the warning about a film of a single frame, where nobody asked for that.
 pub(super) fn single(settings: &Conversion, job: &ConvertJob) -> Option<Diagnostic> {
-    let has_film = |job: &ConvertJob| job.input.present().any(|(view, ..)| view.files.video().is_some());
-    let is_asked = settings.frames.is_some() || job.layers().any(has_film);
+    let is_asked = settings.frames.is_some() || takes(job, |_| true);
     let (film, _) = outputs(job).into_iter().next().filter(|_| job.outputs.count() == Some(1) && !is_asked)?;
     let message = || {
         format!(

@@ -67,8 +67,8 @@ impl Timeline {
         }
     }
 
-    /// Returns the number of the frame whose time is nearest to a number of ticks; of two as near, the later. Times before the first frame are the first's, times
-    /// beyond the end of a list the last's.
+    /// Returns the number of the frame whose time is nearest to a number of ticks; of two as near, the later. Times before the first frame are
+    /// the first's, times beyond the end of a list the last's.
     pub fn frame(&self, time: i64) -> u64 {
         match self {
             Self::Even { start, time_base, rate } => {
@@ -173,8 +173,8 @@ impl Ffmpeg {
         Ok(stream.shown_times(&self.packets(path, stream, &FIRST)?))
     }
 
-    /// Reads the time of the first frame. A stream that may begin anywhere is decoded from its first key frame on, if that is what it begins
-    /// with: frames that are shown before that take after others.
+    /// Reads the time of the first frame. Where a stream that may begin anywhere begins with a key frame, frames that are decoded behind that
+    /// and shown before it may take after others that were cut off: the decoder tells.
     pub(super) fn first_time(
         &self,
         path: &Path,
@@ -182,9 +182,24 @@ impl Ffmpeg {
         container: &str,
     ) -> Result<Option<i64>, VideoError> {
         let packets = self.packets(path, stream, &FIRST)?;
-        let begins_with_key = begins_anywhere(container) && packets.first().is_some_and(|packet| packet.is_key);
-        let key = || timed(&packets).first().filter(|_| stream.tells_times(&packets)).map(|key| key.time);
-        Ok(if begins_with_key { key() } else { stream.shown_times(&packets).first().copied() })
+        let first = stream.shown_times(&packets).first().copied();
+        if !begins_anywhere(container) || !packets.first().is_some_and(|packet| packet.is_key) {
+            return Ok(first);
+        }
+        let key = timed(&packets).first().filter(|_| stream.tells_times(&packets)).map(|key| key.time);
+        Ok(if first < key { self.first_decoded(path, stream)?.or(key) } else { first })
+    }
+
+    /// Decodes the first frames, and returns the time of the first that is shown.
+    fn first_decoded(&self, path: &Path, stream: CodedStream) -> Result<Option<i64>, VideoError> {
+        let index = stream.index.to_string();
+        let entries = ["-select_streams", &index, "-show_entries", "frame=best_effort_timestamp", "-of", "csv=p=0"];
+        let mut first = None;
+        self.ffprobe_lines(path, &[&entries[..], &["-read_intervals", "%+#20"]].concat(), |line| {
+            first = first.or_else(|| line.split(',').next()?.trim().parse().ok());
+            Ok(())
+        })?;
+        Ok(first)
     }
 
     /// Counts the frames that are shown before the first key frame, where the video does not begin with one.

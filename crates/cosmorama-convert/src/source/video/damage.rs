@@ -247,6 +247,7 @@ mod tests {
         damage.note(told(&[fault(8, 4)], &[]));
         assert_eq!(ranges(damage.faults.values()).collect::<Vec<_>>(), [5..6, 8..12]);
     }
+
     #[test]
     fn frames_that_came_all_the_same_are_told_apart() {
         let mut damage = Damage::default();
