@@ -1,11 +1,8 @@
-//! Index of an AVI: it tells which places for frames are empty, where the frame before is shown on.
+//! Index of an AVI: it tells which places for frames are empty, where the frame before is shown on, and which the file has lost.
 
 use std::fs::File;
 use std::io::{BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
-
-/// Name of AVI, as ffprobe says it.
-pub(crate) const AVI: &str = "avi";
 
 /// Chunks before the index that are passed over at most.
 const MOST_CHUNKS: usize = 1 << 10;
@@ -13,18 +10,34 @@ const MOST_CHUNKS: usize = 1 << 10;
 /// Entries of the index that are read at most: ten days of frames and sound.
 const MOST_ENTRIES: u32 = 1 << 26;
 
+/// Bytes before each chunk: its name and size.
+const MARK: u64 = 8;
+
 /// Places for a stream's frames, in order, as the index tells them.
 #[derive(Debug, Default)]
 pub(crate) struct Places {
     is_empty: Vec<bool>,
+    /// First place whose size the file itself tells otherwise.
+    resized: Option<usize>,
+    uncounted: Option<Uncounted>,
+}
+
+/// First place where the file itself has no frame: ffmpeg, which counts frames, gives those behind it numbers that are too low.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Uncounted {
+    pub(crate) place: i64,
+    /// Byte of the file at which its frame should begin.
+    pub(crate) byte: u64,
 }
 
 impl Places {
-    /// Reads the index of a file. Without one, and behind its end (the first gigabyte, where there is more than one `RIFF`), no place is
-    /// known to be empty.
+    /// Reads the index of a file, and compares it with the file itself. Without one, and behind its end (the first gigabyte, where there is
+    /// more than one `RIFF`), no place is known to be empty or lost.
     pub(crate) fn read(path: &Path, stream: u32) -> Self {
-        let is_empty = File::open(path).ok().and_then(|file| entries(BufReader::new(file), stream));
-        Self { is_empty: is_empty.unwrap_or_default() }
+        let open = || File::open(path).ok();
+        let file = open().zip(open()).zip(path.metadata().ok());
+        file.and_then(|((index, file), about)| places(BufReader::new(index), (file, about.len()), stream))
+            .unwrap_or_default()
     }
 
     /// Counts the places that are not empty.
@@ -46,36 +59,148 @@ impl Places {
         let around = self.is_empty.get(place.saturating_sub(delay)..=place);
         around.is_some_and(|around| around.contains(&true))
     }
+
+    /// Returns whether the file tells another size of a place before a time: decoders may pass over it without a word.
+    pub(crate) fn is_resized_before(&self, time: i64) -> bool {
+        self.resized.is_some_and(|place| (place as i64) < time)
+    }
+
+    /// Returns the first place that ffmpeg does not count.
+    pub(crate) fn uncounted(&self) -> Option<Uncounted> {
+        self.uncounted
+    }
 }
 
-/// Reads the entries of a stream's frames in the index `idx1` (Microsoft, AVI RIFF File Reference); `None` where there is none.
-fn entries(mut file: impl Read + Seek, stream: u32) -> Option<Vec<bool>> {
+/// Entry of the index `idx1` (Microsoft, AVI RIFF File Reference).
+struct Entry {
+    name: [u8; 4],
+    /// Place of the mark, from one of two.
+    offset: u32,
+    size: u32,
+}
+
+impl Entry {
+    fn read(file: &mut impl Read) -> Option<Self> {
+        let mut name = [0; 4];
+        let mut numbers = [[0; 4]; 3];
+        file.read_exact(&mut name).ok()?;
+        file.read_exact(numbers.as_flattened_mut()).ok()?;
+        let [_, offset, size] = numbers.map(u32::from_le_bytes);
+        Some(Self { name, offset, size })
+    }
+
+    fn is_frame_of(&self, stream: u32) -> bool {
+        let name = str::from_utf8(&self.name).unwrap_or_default();
+        matches!(name.split_at_checked(2), Some((number, "dc" | "db")) if number.parse() == Ok(stream))
+    }
+}
+
+/// Reads the places of a stream's frames from a file's index, and compares them with the file; `None` where it has no index.
+fn places<F: Read + Seek>(mut index: impl Read + Seek, (file, length): (F, u64), stream: u32) -> Option<Places> {
+    let (count, list) = find_index(&mut index)?;
+    let mut marks = Marks { file, length, bases: [list, Some(0)], end: 0, is_in_order: true, last: None };
+    let mut places = Places::default();
+    for _ in 0..count {
+        let entry = Entry::read(&mut index)?;
+        // What is empty may have no mark.
+        let mark = if entry.size == 0 { Mark::AsTold } else { marks.of(&entry) };
+        if !entry.is_frame_of(stream) {
+            continue;
+        }
+        let place = places.is_empty.len();
+        places.is_empty.push(entry.size == 0);
+        match mark {
+            Mark::AsTold => {}
+            Mark::Resized => places.resized = places.resized.or(Some(place)),
+            Mark::None(byte) => {
+                places.uncounted = places.uncounted.or(Some(Uncounted { place: place as i64, byte }));
+            }
+        }
+    }
+    if !marks.are_known() {
+        (places.resized, places.uncounted) = (None, None);
+    }
+    Some(places)
+}
+
+/// Goes to the entries of the index. Returns their number, and the place of the list of frames, from which their offsets may count.
+fn find_index(file: &mut (impl Read + Seek)) -> Option<(u32, Option<u64>)> {
     let mut head = [0; 12];
     file.read_exact(&mut head).ok()?;
     if !(head.starts_with(b"RIFF") && head.ends_with(b"AVI ")) {
         return None;
     }
+    let mut list = None;
     for _ in 0..MOST_CHUNKS {
-        let mut head = [0; 8];
+        let mut head = [0; MARK as usize];
         file.read_exact(&mut head).ok()?;
         let [name @ .., a, b, c, d] = head;
         let size = u32::from_le_bytes([a, b, c, d]);
-        if name != *b"idx1" {
-            file.seek(SeekFrom::Current(i64::from(size) + i64::from(size % 2))).ok()?;
-            continue;
+        if name == *b"idx1" {
+            return Some(((size / 16).min(MOST_ENTRIES), list));
         }
-        let mut found = Vec::new();
-        for _ in 0..(size / 16).min(MOST_ENTRIES) {
-            let mut entry = [0; 16];
-            file.read_exact(&mut entry).ok()?;
-            let name = str::from_utf8(&entry[..4]).unwrap_or_default();
-            let is_frame =
-                matches!(name.split_at_checked(2), Some((number, "dc" | "db")) if number.parse() == Ok(stream));
-            found.extend(is_frame.then_some(entry.ends_with(&[0; 4])));
+        let start = file.stream_position().ok()?;
+        let mut kind = [0; 4];
+        if name == *b"LIST" && file.read_exact(&mut kind).is_ok() && kind == *b"movi" {
+            list = list.or(Some(start));
         }
-        return Some(found);
+        file.seek(SeekFrom::Start(start.saturating_add(u64::from(size) + u64::from(size % 2)))).ok()?;
     }
     None
+}
+
+/// Marks of a file's chunks, in the order of the index.
+struct Marks<F> {
+    file: F,
+    length: u64,
+    /// Places from which offsets may count: writers do not agree. From the first mark that is found, one is known.
+    bases: [Option<u64>; 2],
+    /// End of the chunk before.
+    end: u64,
+    is_in_order: bool,
+    last: Option<u32>,
+}
+
+/// Finding where the index tells of a chunk.
+#[derive(Debug, PartialEq, Eq)]
+enum Mark {
+    AsTold,
+    /// A chunk of another size.
+    Resized,
+    /// No chunk at this byte, or one that lies in the chunk before.
+    None(u64),
+}
+
+impl<F: Read + Seek> Marks<F> {
+    fn of(&mut self, entry: &Entry) -> Mark {
+        self.is_in_order &= self.last.is_none_or(|last| last < entry.offset);
+        self.last = Some(entry.offset);
+        for base in self.bases.into_iter().flatten() {
+            let start = base.saturating_add(u64::from(entry.offset));
+            // What ends behind the file, ffmpeg takes for no mark.
+            let size = self.size(start, entry.name).filter(|size| start + MARK + u64::from(*size) <= self.length);
+            if let Some(size) = size.filter(|_| start >= self.end) {
+                self.bases = [Some(base), None];
+                self.end = start + MARK + u64::from(size);
+                return if size == entry.size { Mark::AsTold } else { Mark::Resized };
+            }
+        }
+        Mark::None(self.bases.into_iter().flatten().next().unwrap_or(0).saturating_add(u64::from(entry.offset)))
+    }
+
+    /// Returns the size of the chunk that begins at a byte, if one of this stream does.
+    fn size(&mut self, start: u64, name: [u8; 4]) -> Option<u32> {
+        let mut found = [[0; 4]; 2];
+        self.file.seek(SeekFrom::Start(start)).ok()?;
+        self.file.read_exact(found.as_flattened_mut()).ok()?;
+        // Some writers call the same frames `dc` and `db`.
+        (found[0][..3] == name[..3]).then_some(u32::from_le_bytes(found[1]))
+    }
+
+    /// Returns whether the index is one of this file: it is in the file's order, and some marks are where it tells.
+    fn are_known(&self) -> bool {
+        self.is_in_order && self.bases[1].is_none()
+    }
 }
 
 #[cfg(test)]
@@ -84,33 +209,63 @@ mod tests {
 
     use super::*;
 
-    fn file(entries: &[(&[u8; 4], u32)]) -> Vec<u8> {
-        let mut bytes =
-            [&b"RIFF\0\0\0\0AVI LIST\x05\0\0\0movi.\0idx1"[..], &(entries.len() as u32 * 16).to_le_bytes()].concat();
-        for (name, size) in entries {
-            bytes.extend([&name[..], &[0; 8], &size.to_le_bytes()].concat());
+    /// Makes a file of two chunks at bytes 24 and 38, whose index has these entries.
+    fn file(entries: &[(&[u8; 4], u32, u32)]) -> Vec<u8> {
+        let mut bytes = b"RIFF\0\0\0\0AVI LIST\x20\0\0\0movi00dc\x06\0\0\0abcdef00dc\x06\0\0\0ghijkl".to_vec();
+        bytes.extend([&b"idx1"[..], &(entries.len() as u32 * 16).to_le_bytes()].concat());
+        for (name, offset, size) in entries {
+            bytes.extend([&name[..], &[0; 4], &offset.to_le_bytes(), &size.to_le_bytes()].concat());
         }
         bytes
     }
 
+    fn read(bytes: &[u8], stream: u32) -> Option<Places> {
+        places(Cursor::new(bytes), (Cursor::new(bytes), bytes.len() as u64), stream)
+    }
+
     #[test]
     fn places_are_empty_as_the_index_tells() {
-        let entries = |stream, list: &[(&[u8; 4], u32)]| super::entries(Cursor::new(file(list)), stream);
-        let list: [(&[u8; 4], u32); 5] = [(b"00dc", 9), (b"01wb", 0), (b"00dc", 0), (b"01dc", 7), (b"00db", 300)];
-        assert_eq!(entries(0, &list), Some(vec![false, true, false]));
-        assert_eq!(entries(1, &list), Some(vec![false]));
-        assert_eq!(entries(2, &list), Some(Vec::new()));
+        let list: [(&[u8; 4], u32, u32); 5] =
+            [(b"00dc", 4, 9), (b"01wb", 0, 0), (b"00dc", 0, 0), (b"01dc", 18, 7), (b"00db", 32, 300)];
         let bytes = file(&list);
+        let is_empty = |stream| read(&bytes, stream).unwrap().is_empty;
+        assert_eq!(is_empty(0), [false, true, false]);
+        assert_eq!(is_empty(1), [false]);
+        assert!(is_empty(2).is_empty());
         for length in 0..bytes.len() {
-            assert_eq!(super::entries(Cursor::new(&bytes[..length]), 0), None, "{length} bytes");
+            assert!(read(&bytes[..length], 0).is_none(), "{length} bytes");
         }
     }
 
     #[test]
     fn what_the_index_does_not_tell_is_not_empty() {
-        let places = Places { is_empty: vec![false, true, false, false] };
+        let places = Places { is_empty: vec![false, true, false, false], ..Places::default() };
         assert_eq!((places.filled(), [-1, 1, 2, 9].map(|time| places.empty_before(time))), (3, [0, 0, 1, 1]));
         assert_eq!([-1, 0, 1, 2, 3, 4].map(|time| places.is_empty(time, 0)), [false, false, true, false, false, false]);
         assert_eq!([0, 1, 2, 3].map(|time| places.is_empty(time, 1)), [false, true, true, false]);
+    }
+
+    #[test]
+    fn places_that_the_file_has_lost_are_found() {
+        let found = |bytes: &[u8]| read(bytes, 0).map(|places| (places.resized, places.uncounted)).unwrap();
+        let uncounted = |place, byte| Some(Uncounted { place, byte });
+        // Offsets count from the list, or from the beginning.
+        for base in [0, 20] {
+            let bytes = file(&[(b"00dc", 24 - base, 6), (b"00dc", 38 - base, 6)]);
+            assert_eq!(found(&bytes), (None, None));
+            let with = |place: usize, new: &[u8]| {
+                let mut bytes = bytes.clone();
+                bytes[place..place + new.len()].copy_from_slice(new);
+                found(&bytes)
+            };
+            assert_eq!(with(38, b"XX"), (None, uncounted(1, 38)), "no mark");
+            assert_eq!(with(42, &[0, 9, 0]), (None, uncounted(1, 38)), "longer than the file");
+            assert_eq!(with(28, &[7]), (Some(0), uncounted(1, 38)), "longer than the place");
+            assert_eq!(with(28, &[0]), (Some(0), None));
+            assert_eq!(with(24, b"01wb"), (None, uncounted(0, if base == 0 { 44 } else { 24 })));
+        }
+        // An index of another file, and one in another order.
+        assert_eq!(found(&file(&[(b"00dc", 5, 6), (b"00dc", 19, 6)])), (None, None));
+        assert_eq!(found(&file(&[(b"00dc", 18, 6), (b"00dc", 4, 7)])), (None, None));
     }
 }

@@ -5,12 +5,11 @@ use std::path::Path;
 
 use serde_json::Value;
 
+use super::container::{AVI, begins_anywhere, is_bare, is_boxes, is_matroska};
 use super::first_frame::FirstFrame;
 use super::stream::{Stream, delay, ratio, text};
-use super::timeline::{CodedStream, PATIENCE, begins_anywhere};
-use super::{
-    AVI, Announced, AnnouncedBy, CutShort, OtherStream, Places, StreamKind, Timeline, VideoInfo, is_boxes, structure,
-};
+use super::timeline::{CodedStream, PATIENCE};
+use super::{Announced, AnnouncedBy, CutShort, OtherStream, Places, StreamKind, Timeline, VideoInfo, structure};
 use crate::ffmpeg::Said;
 use crate::{Ffmpeg, SpatialTags, VideoError};
 
@@ -188,16 +187,6 @@ fn document(path: &Path, said: &Said, cut: Option<CutShort>) -> Result<Value, Vi
 
 fn streams(document: &Value) -> &[Value] {
     document["streams"].as_array().map(Vec::as_slice).unwrap_or_default()
-}
-
-/// Returns whether a stream is bare, by ffprobe's name of its container: no frame has a time, and where it tells no rate, ffprobe takes 25
-/// frames a second.
-pub(crate) fn is_bare(container: &str) -> bool {
-    ["h264", "hevc", "obu"].contains(&container)
-}
-
-fn is_matroska(container: &str) -> bool {
-    container.starts_with("matroska")
 }
 
 /// Returns whether a stream is video, and not the picture of a cover.

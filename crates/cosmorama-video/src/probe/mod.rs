@@ -1,6 +1,7 @@
 //! Properties of a video file, as ffprobe and the file's own structure tell them.
 
 mod avi;
+mod container;
 mod document;
 mod first_frame;
 mod pixel_format;
@@ -11,9 +12,8 @@ mod turn;
 
 use std::path::PathBuf;
 
-pub(crate) use avi::{AVI, Places};
-pub(crate) use document::is_bare;
-pub(crate) use structure::is_boxes;
+pub(crate) use avi::{Places, Uncounted};
+pub(crate) use container::{AVI, is_bare, is_boxes};
 pub use timeline::Timeline;
 pub(crate) use timeline::{CodedFrame, shown_times};
 pub use turn::Turn;

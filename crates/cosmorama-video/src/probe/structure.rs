@@ -14,11 +14,6 @@ const FIRST: [&[u8; 4]; 9] = [b"ftyp", b"styp", b"moov", b"mdat", b"free", b"ski
 /// Names of boxes that follow others in them.
 const LATER: [&[u8; 4]; 8] = [b"moof", b"mfra", b"sidx", b"ssix", b"meta", b"udta", b"prft", b"emsg"];
 
-/// Returns whether ffprobe's names of a container are those of MP4 and MOV.
-pub(crate) fn is_boxes(container: &str) -> bool {
-    container.split(',').any(|name| name == "mov" || name == "mp4")
-}
-
 /// Finds out whether a file has fewer bytes than its structure says; `None` also for files without such a structure.
 pub(super) fn cut(file: &mut File) -> Option<CutShort> {
     let found = file.metadata().ok()?.len();
@@ -28,6 +23,8 @@ pub(super) fn cut(file: &mut File) -> Option<CutShort> {
     let expected = match &start {
         [0x1a, 0x45, 0xdf, 0xa3, ..] => end_of_segment(file)?,
         [b'R', b'I', b'F', b'F', size @ .., _, _, _, _] => 8 + u64::from(u32::from_le_bytes(*size)),
+        [b'F', b'L', b'V', ..] => size_in_flv(&beginning(file)?)?,
+        [0x30, 0x26, 0xb2, 0x75, ..] => size_in_asf(&beginning(file)?)?,
         [_, _, _, _, name @ .., _, _, _, _] if FIRST.contains(&name) => end_of_boxes(file, found)?,
         _ => return None,
     };
@@ -65,6 +62,36 @@ fn end_of_boxes(file: &mut File, length: u64) -> Option<u64> {
         at = at.checked_add(size.max(8))?;
     }
     None
+}
+
+/// Returns the first bytes of a file.
+fn beginning(file: &mut File) -> Option<Vec<u8>> {
+    const ENOUGH: u64 = 1 << 16;
+    file.seek(SeekFrom::Start(0)).ok()?;
+    let mut bytes = Vec::new();
+    file.take(ENOUGH).read_to_end(&mut bytes).ok()?;
+    Some(bytes)
+}
+
+/// Returns the bytes behind some others.
+fn behind<'a>(bytes: &'a [u8], mark: &[u8]) -> Option<&'a [u8]> {
+    let at = bytes.windows(mark.len()).position(|window| window == mark)?;
+    bytes.get(at + mark.len()..)
+}
+
+/// Returns the size that FLV tells of itself, as most writers do: a number of AMF in `onMetaData` (Adobe, Flash Video File Format 10.1).
+fn size_in_flv(bytes: &[u8]) -> Option<u64> {
+    let number = behind(bytes, b"\0\x08filesize\0")?.first_chunk()?;
+    Some(f64::from_be_bytes(*number) as u64)
+}
+
+/// Returns the size that ASF tells in its File Properties (Microsoft, Advanced Systems Format 3.2); none of a broadcast is right.
+fn size_in_asf(bytes: &[u8]) -> Option<u64> {
+    const PROPERTIES: [u8; 16] = *b"\xa1\xdc\xab\x8c\x47\xa9\xcf\x11\x8e\xe4\x00\xc0\x0c\x20\x53\x65";
+    let properties = behind(bytes, &PROPERTIES)?;
+    let is_broadcast = properties.get(72)? & 1 == 1;
+    let size = properties.get(24..)?.first_chunk()?;
+    (!is_broadcast).then_some(u64::from_le_bytes(*size))
 }
 
 /// Returns the end of a Matroska file's segment; `None` if its size is not said.
@@ -125,6 +152,16 @@ mod tests {
         // A live stream does not say how long it is.
         assert_eq!(found(b"\x1a\x45\xdf\xa3\x81x\x18\x53\x80\x67\x01\xff\xff\xff\xff\xff\xff\xffabc"), None);
         assert_eq!(found(b"RIFF\x10\0\0\0AVI LIST"), Some(CutShort { expected: 24, found: 16 }));
+        let flv = |size: f64| [&b"FLV\x01\x05\0\0\0\x09\0\x08filesize\0"[..], &size.to_be_bytes()].concat();
+        assert_eq!(found(&flv(28.0)), None);
+        assert_eq!(found(&flv(40.0)), Some(CutShort { expected: 40, found: 28 }));
+        assert!([f64::NAN, -1.0, 0.0].iter().all(|size| found(&flv(*size)).is_none()));
+        let asf = |size: u64, flags: u8| {
+            let guid = b"\xa1\xdc\xab\x8c\x47\xa9\xcf\x11\x8e\xe4\0\xc0\x0c\x20\x53\x65";
+            [&b"\x30\x26\xb2\x75"[..], guid, &[0; 24], &size.to_le_bytes(), &[0; 40], &[flags, 0, 0, 0]].concat()
+        };
+        assert_eq!((found(&asf(96, 2)), found(&asf(97, 3)), found(&asf(97, 2)[..90])), (None, None, None));
+        assert_eq!(found(&asf(97, 2)), Some(CutShort { expected: 97, found: 96 }));
         assert_eq!(found(b"\x1a\x45\xdf\xa3\0\0\0\0\0\0\0\0\0\0\0"), None);
         assert_eq!(found(b"short"), None);
         assert_eq!(found(b"ffconcat version 1.0"), None);

@@ -1,6 +1,7 @@
 use std::path::Path;
 use std::time::Duration;
 
+use super::container::begins_anywhere;
 use crate::{Ffmpeg, Ratio, VideoError, VideoInfo};
 
 /// Times of a video's frames.
@@ -45,12 +46,6 @@ pub(crate) fn shown_times(coded: &[CodedFrame]) -> Vec<i64> {
 
 /// Option of ffprobe for the first packets.
 const FIRST: [&str; 2] = ["-read_intervals", "%+#120"];
-
-/// Returns whether streams of a container may begin between key frames, by ffprobe's name of it: those that are cut anywhere. Of bare H.264
-/// ffmpeg does not tell the numbers of frames then, and its decoder complains of each that it lacks.
-pub(super) fn begins_anywhere(container: &str) -> bool {
-    ["mpegts", "mpeg", "mpegvideo", "m4v", "hevc"].contains(&container)
-}
 
 /// Frames of a video at most: ten days of 120 a second.
 const MOST_FRAMES: usize = 100_000_000;

@@ -9,7 +9,7 @@ use cosmorama::raster::{Depth, EncodedImage, FramePool, Samples};
 use super::ReadOptions;
 use super::filters::{Pixels, Raw, chain};
 use crate::ffmpeg::{Child, Event, Log, input_limits, url};
-use crate::{Ffmpeg, Version, VideoError, VideoInfo};
+use crate::{Ffmpeg, Timeline, Version, VideoError, VideoInfo};
 
 /// Point at which decoding begins.
 #[derive(Clone, Copy, Debug, Default)]
@@ -18,6 +18,26 @@ pub(super) struct Start {
     pub(super) seek: Option<f64>,
     /// Time in ticks of the first frame that is wanted.
     pub(super) from: Option<i64>,
+}
+
+/// Frames from whose number on seeking is worth it.
+const WORTH_SEEKING: u64 = 50;
+
+/// Seconds before a frame to which ffmpeg seeks, so that all frames that it needs lie behind.
+pub(super) const MARGIN: f64 = 0.5;
+
+impl Start {
+    /// Returns where decoding begins for a frame to be the first.
+    pub(super) fn at(first: u64, info: &VideoInfo, timeline: &Timeline) -> Self {
+        let Some(time) = (first > 0).then(|| timeline.time(first)).flatten() else { return Self::default() };
+        let half = match timeline {
+            Timeline::Even { time_base, rate, .. } => rate.inverse().rescale(1, *time_base) / 2,
+            Timeline::Listed { .. } => 0,
+        };
+        let seconds = time as f64 * info.time_base.to_f64() - info.file_start - MARGIN;
+        let seek = (first >= WORTH_SEEKING && seconds > 0.0).then_some(seconds);
+        Self { seek, from: Some(time - half) }
+    }
 }
 
 /// A running decoder. Dropped, it ends its ffmpeg.
@@ -35,7 +55,7 @@ pub(super) struct Decoder {
     /// Whether frames before it are decoded and dropped.
     is_partial: bool,
     /// Whether something was heard before it: frames may be damaged, or lack others before the place where decoding began.
-    is_doubtful: bool,
+    pub(super) is_doubtful: bool,
     /// Whether a message of an error is about the frame that comes next, which is painted over and given all the same.
     is_painted: bool,
 }

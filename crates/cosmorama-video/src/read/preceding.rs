@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use cosmorama::raster::EncodedImage;
 
-use super::reader::MARGIN;
+use super::decoder::MARGIN;
 use super::{CodedOrder, Damaged, Fault, ReadOptions, VideoReader};
 use crate::probe::{CodedFrame, is_bare};
 use crate::{AnnouncedBy, Ffmpeg, Timeline, VideoError, VideoInfo};

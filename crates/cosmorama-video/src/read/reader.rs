@@ -2,7 +2,7 @@ use super::decoder::{Decoded, Decoder, Ended, Next, Start};
 use super::filters::{Pixels, Raw};
 use super::preceding::{Beside, DELAY, Damage, Looked, PATIENCE};
 use super::{Damaged, Fault, FrameCondition, ReadOptions, VideoFrame};
-use crate::probe::{AVI, Places};
+use crate::probe::{AVI, Places, Uncounted};
 use crate::{Announced, AnnouncedBy, CutShort, Ffmpeg, Timeline, VideoError, VideoInfo};
 use cosmorama::raster::{EncodedImage, FramePool};
 
@@ -64,12 +64,6 @@ struct Complaint {
 /// Frames in a row that are held at most. More are no gap, but a lie about times or numbers.
 const LONGEST_HOLD: u64 = 100_000;
 
-/// Frames from whose number on seeking is worth it.
-const WORTH_SEEKING: u64 = 50;
-
-/// Seconds before a frame to which ffmpeg seeks, so that all frames that it needs lie behind.
-pub(super) const MARGIN: f64 = 0.5;
-
 impl VideoReader {
     /// Starts to decode.
     ///
@@ -96,11 +90,11 @@ impl VideoReader {
             });
         }
         let first = options.frames.as_ref().map_or(0, |range| *range.start());
-        let start = start(info, &timeline, first);
-        let decoder = Decoder::start(ffmpeg, info, &options, start)?;
-        let has_places = info.container == AVI && !info.is_variable;
-        let places = if has_places { Places::read(&info.path, info.stream) } else { Places::default() };
-        Ok(Self {
+        let start = Start::at(first, info, &timeline);
+        let mut decoder = Decoder::start(ffmpeg, info, &options, start)?;
+        let places = if info.container == AVI { Places::read(&info.path, info.stream) } else { Places::default() };
+        decoder.is_doubtful |= places.is_resized_before(timeline.time(first).unwrap_or(0));
+        let mut reader = Self {
             ffmpeg: ffmpeg.clone(),
             info: info.clone(),
             options,
@@ -121,7 +115,9 @@ impl VideoReader {
             faults: Vec::new(),
             beside: Vec::new(),
             foreseen: Vec::new(),
-        })
+        };
+        reader.tell_of_uncounted()?;
+        Ok(reader)
     }
 
     /// Starts to decode, without a second look.
@@ -237,7 +233,7 @@ impl VideoReader {
                 let from = self.look_before()?;
                 if has_sought {
                     // Some decoders make up frames that they lack: decoding begins again, farther before.
-                    self.restart(start(&self.info, &self.timeline, from).seek)?;
+                    self.restart(Start::at(from, &self.info, &self.timeline).seek)?;
                     continue;
                 }
             }
@@ -273,7 +269,7 @@ impl VideoReader {
     }
 
     fn restart(&mut self, seek: Option<f64>) -> Result<(), VideoError> {
-        let start = Start { seek, ..start(&self.info, &self.timeline, self.expected) };
+        let start = Start { seek, ..Start::at(self.expected, &self.info, &self.timeline) };
         // The old one is ended first.
         self.decoder = None;
         self.decoder = Some(Decoder::start(&self.ffmpeg, &self.info, &self.options, start)?);
@@ -399,7 +395,22 @@ impl VideoReader {
     }
 
     fn is_empty_place(&self, frame: u64) -> bool {
-        self.timeline.time(frame).is_some_and(|time| self.places.is_empty(time, self.info.delay))
+        let is_empty = |time| self.places.is_empty(time, self.info.delay);
+        !self.info.is_variable && self.timeline.time(frame).is_some_and(is_empty)
+    }
+
+    /// Tells of frames behind a place of an AVI that ffmpeg does not count.
+    fn tell_of_uncounted(&mut self) -> Result<(), VideoError> {
+        let Some(Uncounted { place, byte }) = self.places.uncounted() else { return Ok(()) };
+        let frame = self.timeline.frame(place);
+        let end = self.looked().last().map_or(frame, |last| last.max(frame)) + 1;
+        if !self.options.looks_at_any(&(frame..end)) {
+            return Ok(());
+        }
+        let reason = format!(
+            "at byte {byte}, where the file's index tells of it, no frame begins; those behind it come too early"
+        );
+        self.note(Fault { frame, count: end.min(self.end_of_range()) - frame, reason, is_given: true })
     }
 
     /// Repeats the frame before; one that is the first of those that are asked for is decoded.
@@ -559,18 +570,6 @@ const EARLY: &str = "it comes before the first key frame: the video was cut out 
 
 /// Reason of a frame that is missing where nothing is said of it.
 const ENDS: &str = "the video ends before it";
-
-/// Returns where decoding begins for a frame to be the first.
-fn start(info: &VideoInfo, timeline: &Timeline, first: u64) -> Start {
-    let Some(time) = (first > 0).then(|| timeline.time(first)).flatten() else { return Start::default() };
-    let half = match timeline {
-        Timeline::Even { time_base, rate, .. } => rate.inverse().rescale(1, *time_base) / 2,
-        Timeline::Listed { .. } => 0,
-    };
-    let seconds = time as f64 * info.time_base.to_f64() - info.file_start - MARGIN;
-    let seek = (first >= WORTH_SEEKING && seconds > 0.0).then_some(seconds);
-    Start { seek, from: Some(time - half) }
-}
 
 fn check_memory(info: &VideoInfo, options: &ReadOptions) -> Result<(), VideoError> {
     let (raw, (width, height)) = (Raw::of(info)?, info.size());

@@ -251,7 +251,7 @@ const ANSWERS: [(&str, &str, &[&str]); 3] = [
         "Content light level metadata", "max_content": 1000, "max_average": 400}]}]}"#,
         &["/", "0/0", "null", "[", "]", "{", "}"],
     ),
-    ("packets", "0,K__\n512,___\n1024,__D\n1536,___\n", &["D", ",", "\n", "N/A"]),
+    ("packets", "0,0,K__\n512,512,___\n1024,1024,__D\n1536,1536,___\n", &["D", ",", "\n", "N/A"]),
 ];
 
 /// Makes a program that stands in for ffprobe, and prints the files beside it.
@@ -296,6 +296,46 @@ fn answers_of_ffprobe_are_refused_or_understood() {
         }
         assert!(understood > 0, "{name}");
         std::fs::write(folder.path().join(name), text).unwrap();
+    }
+}
+
+/// An AVI of three places, one of which is empty, with its index.
+#[cfg(unix)]
+fn avi() -> Vec<u8> {
+    let chunk = |name: &[u8; 4], content: &[u8]| [&name[..], &(content.len() as u32).to_le_bytes(), content].concat();
+    let entry = |place: u32, size: u32| [&b"00dc\x10\0\0\0"[..], &place.to_le_bytes(), &size.to_le_bytes()].concat();
+    let frames = [&b"movi"[..], &chunk(b"00dc", b"abcdef"), &chunk(b"00dc", b""), &chunk(b"00dc", b"ghij")].concat();
+    let index = [entry(4, 6), entry(18, 0), entry(26, 4)].concat();
+    chunk(b"RIFF", &[&b"AVI "[..], &chunk(b"LIST", &frames), &chunk(b"idx1", &index)].concat())
+}
+
+/// Containers of which more is asked: the index of AVI, the key frames of streams that begin anywhere, the rate of bare ones.
+#[cfg(unix)]
+#[test]
+fn answers_about_each_container_are_refused_or_understood() {
+    let folder = tempfile::tempdir().unwrap();
+    let (ffmpeg, path) = (stand_in(folder.path()), folder.path().join("film"));
+    let [(_, streams, _), (_, frames, _), _] = ANSWERS;
+    std::fs::write(folder.path().join("frames"), frames).unwrap();
+    let packets = "N/A,2,___\n3,3,K__\n5,4,__D\nN/A,6,___\n4,4,K__\n";
+    let words = ["N/A", ",", "\n", "K", "D", "-", "9223372036854775807"];
+    for (seed, container) in (0..).zip(["avi", "mpegts", "mpeg", "h264", "flv", "asf", "mov,mp4"]) {
+        let streams = streams.replace("matroska,webm", container).replace("\"start_pts\": 0", "\"start_pts\": 3");
+        std::fs::write(folder.path().join("streams"), streams.replace("hevc", "mpeg4")).unwrap();
+        let read = |packets: &[u8], film: &[u8]| {
+            std::fs::write(folder.path().join("packets"), packets).unwrap();
+            std::fs::write(&path, film).unwrap();
+            let start = Instant::now();
+            let timeline = ffmpeg.probe(&path).and_then(|info| ffmpeg.timeline(&info));
+            assert!(start.elapsed() < LONGEST, "{container}: {:?}", start.elapsed());
+            timeline.map(|timeline| [0, 1, u64::MAX].map(|frame| timeline.time(frame))).is_ok()
+        };
+        let film = if container == "avi" { avi() } else { b"frames".to_vec() };
+        assert!(read(packets.as_bytes(), &film), "{container}");
+        let count = Mutants::count(60);
+        Mutants::new(packets.as_bytes(), &words, seed).take(count).for_each(|packets| _ = read(&packets, &film));
+        let words = ["idx1", "movi", "00dc", "RIFF", "LIST"];
+        Mutants::new(&film, &words, seed).take(count).for_each(|film| _ = read(packets.as_bytes(), &film));
     }
 }
 

@@ -10,8 +10,8 @@ use cosmorama_io::pending::Unfinished;
 use cosmorama_io::{Header, ImageFile, IoError, Limits};
 use cosmorama_spec::{FrameRate, Spec};
 use cosmorama_video::{
-    CodedOrder, CutShort, Damaged, Fault, Ffmpeg, FrameCondition, PairedReader, ReadOptions, SecondHalf, Timeline,
-    VideoError, VideoFrame, VideoInfo, VideoReader,
+    Announced, AnnouncedBy, CodedOrder, CutShort, Damaged, Fault, Ffmpeg, FrameCondition, PairedReader, ReadOptions,
+    SecondHalf, Timeline, VideoError, VideoFrame, VideoInfo, VideoReader,
 };
 use thiserror::Error;
 
@@ -318,6 +318,8 @@ impl Source {
             // It is no stream beside the video.
             info.others.retain(|other| other.index != half.info.stream);
         }
+        // Bare streams announce nothing; what was counted, their reader misses.
+        info.announced = info.announced.or(Some(Announced { frames, by: AnnouncedBy::Count }));
         let content = Content::Film { ffmpeg, info: Box::new(info), half: half.map(Box::new) };
         let count = frames;
         Ok(Self::new(video, (content, header), (damaged, threads), count))

@@ -1,0 +1,25 @@
+//! Kinds of containers, by ffprobe's names of them, where what is known of them differs.
+
+/// Name of AVI.
+pub(crate) const AVI: &str = "avi";
+
+/// Returns whether a container is MP4 or MOV.
+pub(crate) fn is_boxes(container: &str) -> bool {
+    container.split(',').any(|name| name == "mov" || name == "mp4")
+}
+
+/// Returns whether a container is Matroska or WebM.
+pub(super) fn is_matroska(container: &str) -> bool {
+    container.starts_with("matroska")
+}
+
+/// Returns whether streams of a container may begin between key frames: those that are cut anywhere. Of bare H.264
+/// ffmpeg does not tell the numbers of frames then, and its decoder complains of each that it lacks.
+pub(super) fn begins_anywhere(container: &str) -> bool {
+    ["mpegts", "mpeg", "mpegvideo", "m4v", "hevc"].contains(&container)
+}
+
+/// Returns whether a stream is bare: no frame has a time, and where it tells no rate, ffprobe takes 25 frames a second.
+pub(crate) fn is_bare(container: &str) -> bool {
+    ["h264", "hevc", "obu"].contains(&container)
+}
