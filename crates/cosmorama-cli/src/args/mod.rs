@@ -17,7 +17,7 @@ use clap::{Arg, ArgAction, Command, CommandFactory, Parser, Subcommand};
 use cosmorama_spec::SpecKind;
 
 pub(crate) use compare::{CompareArgs, Region};
-pub(crate) use convert::{ConvertArgs, OutputArgs, builtins};
+pub(crate) use convert::{ConvertArgs, FramesAsked, OutputArgs, builtins};
 pub(crate) use demo::DemoArgs;
 pub(crate) use explain::ExplainArgs;
 pub(crate) use filters::FiltersArgs;

@@ -2,20 +2,20 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
 use cosmorama_convert::Name;
-use cosmorama_io::FrameList;
 use cosmorama_spec::Size;
 
-use super::convert::{LimitArgs, frame_list};
+use super::convert::{FramesAsked, LimitArgs};
 use super::{ProgressStyle, with_examples};
 use crate::parse::file;
 use crate::parse::number::every;
 
 /// Example commands in its help.
-pub(super) const EXAMPLES: [&str; 4] = [
+pub(super) const EXAMPLES: [&str; 5] = [
     "cosmorama verify 'dome_####.png'",
     "cosmorama verify 'dome_####.png' --frames 1-50000 --size 4096 --json",
     "cosmorama verify 'dome_####.exr' --sheet sheet.png --every 100",
     "cosmorama verify film.mp4",
+    "cosmorama verify film.mp4 --frames 00:01:00-00:01:10",
 ];
 
 /// Find frames of a sequence or a video that are missing, damaged, unlike the others, black or frozen.
@@ -30,9 +30,9 @@ pub(crate) struct VerifyArgs {
     /// Names of the frames, with ####, @@@@ or %04d where their numbers stand, or a video
     #[arg(value_hint = ValueHint::FilePath, value_parser = file::name())]
     pub(crate) pattern: Name,
-    /// Frames that there should be: 1-10 or 1-3,5,7-20:2 [default: first to last]
-    #[arg(long, value_name = "LIST", value_parser = frame_list, allow_hyphen_values = true)]
-    pub(crate) frames: Option<FrameList>,
+    /// Frames that there should be: 1-10 or 1-3,5,7-20:2, of a video 00:01:00-00:01:10, too [default: first to last]
+    #[arg(long, value_name = "LIST", value_parser = FramesAsked::parse, allow_hyphen_values = true)]
+    pub(crate) frames: Option<FramesAsked>,
     /// Size that they should have [default: that of most]
     #[arg(long, value_name = "WxH|N", allow_hyphen_values = true)]
     pub(crate) size: Option<Size>,

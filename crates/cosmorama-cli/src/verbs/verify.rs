@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use super::convert::Watch;
 use super::{prepare_output, write_picture};
-use crate::args::{OutputArgs, VerifyArgs};
+use crate::args::{FramesAsked, OutputArgs, VerifyArgs};
 use crate::console::Console;
 use crate::failure::usage;
 
@@ -23,9 +23,11 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Result<ExitCode> {
     }
     let format = args.sheet.as_deref().map(sheet_format).transpose()?;
     let _folders = args.sheet.as_deref().map(|sheet| prepare_sheet(sheet, args, console)).transpose()?;
+    let (frames, times) = FramesAsked::parted(args.frames.clone());
     let verification = Verification {
         pattern: &args.pattern,
-        frames: args.frames.clone(),
+        frames,
+        times,
         size: args.size,
         limits: args.limits.clone().into(),
         sheet: args.sheet.as_ref().map(|_| SheetLayout { every: args.every }),

@@ -18,7 +18,7 @@ use crate::input::is_one_file;
 use crate::input::lists::world_file;
 use crate::job::{Content, ConvertJob, Purpose};
 use crate::settings::{Backdrop, Conversion, GeometrySettings};
-use crate::source::{MemoryBudget, ViewFiles, with_videos};
+use crate::source::{Files, MemoryBudget, Name, ViewFiles, with_videos};
 
 /// A conversion that has been checked as far as possible without decoding pixels.
 pub struct Checked {
@@ -123,14 +123,20 @@ fn with_layers(mut settings: Conversion) -> Result<Conversion> {
 /// Puts the numbers of a video's frames in place of the times that are asked for.
 fn with_frames_at_times(settings: Conversion) -> Result<Conversion> {
     let Some(times) = &settings.times else { return Ok(settings) };
-    let (input, files) = (&settings.input, with_videos(Arc::clone(&settings.files)));
+    let files = with_videos(Arc::clone(&settings.files));
+    let frames = frames_at_times(times, &settings.input, &*files)?;
+    Ok(Conversion { frames: Some(frames), ..settings })
+}
+
+/// Returns the numbers of a video's frames at the times that are asked for.
+pub(super) fn frames_at_times(times: &TimeRanges, input: &Name, files: &dyn Files) -> Result<FrameList> {
     let refused =
         |why: &str| Err(usage(format!("{FRAMES} {times}: {input} {why}; give numbers of frames, as in {FRAMES} 0-99")));
     let video = ViewFiles::new(Path::new(input));
     let Some((video, videos)) = video.video().zip(files.videos()) else {
         return refused("is no video, whose frames have times");
     };
-    is_one_file(&*files, input, video)?;
+    is_one_file(files, input, video)?;
     let Some(count) = videos.count(video)? else { return refused("is a stream whose end is not known") };
     let (frames, beyond, rate) = match (videos.rate(video)?, videos.begins(video)?) {
         (Some(rate), _) => {
@@ -149,7 +155,7 @@ fn with_frames_at_times(settings: Conversion) -> Result<Conversion> {
     if frames.frames().is_empty() {
         bail!(NotFound: "{FRAMES} {times}: {input} has no frame then; it has {count}, {rate}");
     }
-    Ok(Conversion { frames: Some(frames), ..settings })
+    Ok(frames)
 }
 
 /// Starts a pool of threads.

@@ -18,7 +18,7 @@ use crate::parse::progress::ProgressStyle;
 
 pub(super) use geometry::{CameraArgs, GeometryArgs, ShutterArgs, TurnArgs};
 pub(super) use settings::existing;
-pub(super) use video::FramesAsked;
+pub(crate) use video::FramesAsked;
 pub(crate) use video::VideoArgs;
 
 /// Example commands in its help.

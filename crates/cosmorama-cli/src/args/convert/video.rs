@@ -39,7 +39,7 @@ pub(crate) enum FramesAsked {
 
 impl FramesAsked {
     /// Reads a list of numbers or of times.
-    pub(super) fn parse(text: &str) -> Result<Self, String> {
+    pub(crate) fn parse(text: &str) -> Result<Self, String> {
         if TimeRanges::are_meant(text) {
             return text.parse().map(Self::Times).map_err(|error: cosmorama_spec::TimeRangesError| error.to_string());
         }

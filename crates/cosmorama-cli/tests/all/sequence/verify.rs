@@ -204,6 +204,10 @@ fn frames_of_a_video_are_verified() {
         &["black: 2\n", "equal to the frame before: 5\n", "far from both neighbours: 2,10\n", "faults: 2,5,10\n"],
     );
     assert_eq!(verify(&["film.mkv", "--frames", "6-9"]), (Some(0), "4 frames are whole and alike\n".to_owned()));
+    let timed = verify(&["film.mkv", "--frames", "00:00:00.24-00:00:00.40"]);
+    assert_eq!(timed, (Some(0), "4 frames are whole and alike\n".to_owned()));
+    let (code, told) = verify(&["in_##.png", "--frames", "00:00:00-00:00:01"]);
+    assert!(code == Some(2) && told.contains("in_##.png is no video, whose frames have times"), "{told}");
     let (code, told) = verify(&["film.mkv", "--frames", "6-8,12-13"]);
     assert_eq!((code, told.as_str()), (Some(1), "missing: 12,13\n2 of 5 frames have faults: 12,13\n"));
     assert_says(&verify(&["film.mkv", "--frames", "6-9", "--size", "99"]).1, &["of size 64x32 instead of 99"]);
@@ -291,6 +295,29 @@ fn a_transport_stream_that_lost_a_frame_keeps_its_last() {
     let held = bench.run(&[&args[..], &["--damaged", "hold"]].concat());
     assert!(held.status.success() && !text(&held.stderr).contains("announced"), "{}", text(&held.stderr));
     assert!(bench.path("f_29.png").exists());
+}
+
+/// Bare streams announce no number of frames: what was counted is missed.
+#[cfg(feature = "video")]
+#[test]
+fn a_bare_stream_keeps_the_place_of_its_last_frame() {
+    if !has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    let source = "testsrc2=size=64x32:rate=25,trim=end_frame=12";
+    ffmpeg(&bench, &["-f", "lavfi", "-i", source, "-c:v", "libx264", "-bf", "0", "film.h264"]);
+    let bytes = bench.bytes("film.h264");
+    let last = bytes.windows(4).rposition(|start| start == [0, 0, 1, 0x41]).unwrap();
+    std::fs::write(bench.path("film.h264"), &bytes[..last + 12]).unwrap();
+    let convert = |damaged: &str| {
+        let wanted = ["convert", "film.h264", "out_####.png", "--from", "equirect", "--to", "fulldome", "--size", "16"];
+        bench.run(&[&wanted[..], &["--damaged", damaged]].concat())
+    };
+    let held = convert("hold");
+    assert_says(&text(&held.stderr), &["1 frame is damaged or missing", "the first is frame 11"]);
+    assert!(held.status.success() && bench.path("out_0011.png").exists());
+    assert_eq!(convert("error").status.code(), Some(1));
 }
 
 /// Makes a film of 30 frames, every tenth a key frame, of which frame 13 is damaged.

@@ -10,9 +10,10 @@ use std::sync::Arc;
 
 use cosmorama::raster::{Image, Rgba};
 use cosmorama_io::{Choice, FrameList, Frames, IoError, Limits};
-use cosmorama_spec::Size;
+use cosmorama_spec::{Size, TimeRanges};
 use rayon::prelude::*;
 
+use super::check::frames_at_times;
 use super::{Observer, Stop, threads};
 use crate::diagnostic::{ConvertError, EVERY, FRAMES, Result, bail, usage};
 use crate::input::is_one_file;
@@ -33,6 +34,8 @@ pub struct Verification<'a> {
     pub pattern: &'a Name,
     /// Frames that there should be; all from the first to the last, if not given.
     pub frames: Option<FrameList>,
+    /// Times of a video, in place of numbers.
+    pub times: Option<TimeRanges>,
     /// Size that they should have; that of most, if not given.
     pub size: Option<Size>,
     /// Threads, and memory for decoded frames and the contact sheet.
@@ -70,11 +73,17 @@ impl Verification<'_> {
     ///
     /// # Errors
     /// When the pattern is a folder, is no video and has no frame marker, or leaves a face, an eye or a level open; its folder or all its frames are
-    /// missing; the first and the last are too far apart; a frame may not be read or needs more memory than permitted, or the sheet does;
+    /// missing; the first and the last are too far apart; a video has no frame at the times; a frame may not be read or needs more memory than permitted, or the sheet does;
     /// [`ConvertError::Stopped`] if the observer ends it.
     pub fn run(&self, files: Arc<dyn Files>, observer: &mut dyn Observer) -> Result<Verified> {
         // A decoder goes on after a frame that it leaves out.
         let files = &ChosenFiles::new(files, Choice::default(), DamagedFrames::Skip);
+        let Some(times) = &self.times else { return self.verified(files, observer) };
+        let frames = Some(frames_at_times(times, self.pattern, files)?);
+        Self { frames, ..self.clone() }.verified(files, observer)
+    }
+
+    fn verified(&self, files: &ChosenFiles, observer: &mut dyn Observer) -> Result<Verified> {
         let series = series(self.pattern, files)?;
         let wanted = self.wanted(&series, files)?;
         let video = series.video().zip(files.videos());
