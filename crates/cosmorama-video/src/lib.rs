@@ -7,6 +7,7 @@
 //! [`Y4mReader`], [`PamReader`] and [`PfmReader`], with their writers, take pictures from pipes and give them to pipes.
 #![forbid(unsafe_code)]
 
+mod codec_memory;
 mod colour;
 mod error;
 mod ffmpeg;

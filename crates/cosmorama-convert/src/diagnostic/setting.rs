@@ -107,6 +107,8 @@ settings! {
     Fps "fps" FPS,
     /// Codec of a video.
     VideoCodec "video-codec" VIDEO_CODEC,
+    /// Further arguments of a video's encoder.
+    VideoArgs "video-args" VIDEO_ARGS,
     /// Whether existing outputs are replaced.
     Overwrite "overwrite" OVERWRITE,
     /// Whether complete outputs are kept.

@@ -236,6 +236,8 @@ impl ConvertJob {
         };
         let behind = backdrop.as_ref().map(|job| &job.light);
         let mut light = Light::resolve(settings, &input, &target, behind, warnings)?;
+        let layers = backdrop.iter().flat_map(ConvertJob::layers).map(|layer| (&layer.input, &*layer.files));
+        memory = memory.beside_coders(layers.chain([(&input, &*files)]), settings, (&target, &light))?;
         let layers = if content == Content::World && settings.light.is_none() {
             LayerPlan::resolve(settings, (&input, &target, &light), &mut filter, warnings)?
         } else {

@@ -17,6 +17,8 @@ pub struct MemoryBudget {
     too_much: Option<u64>,
     /// Whether it is what `ulimit -v` leaves: a program that needs a little more is aborted.
     pub(crate) is_of_addresses: bool,
+    /// Bytes that ffmpeg holds beside, of the same memory.
+    pub(crate) coders: u64,
 }
 
 /// Default share of free memory.
@@ -42,7 +44,7 @@ impl MemoryBudget {
         };
         let all = all_bytes().unwrap_or(u64::MAX);
         let is_of_addresses = asked.is_none() && addresses_left().is_some_and(|left| part(DEFAULT_PART) >= left / 2);
-        Self { bytes: wanted.min(all), too_much: (wanted > all).then_some(wanted), is_of_addresses }
+        Self { bytes: wanted.min(all), too_much: (wanted > all).then_some(wanted), is_of_addresses, coders: 0 }
     }
 
     /// Checks that a mask of this size fits while it is made from a picture of so many bytes per pixel.
@@ -93,6 +95,11 @@ impl MemoryBudget {
         Self { bytes: self.bytes.saturating_sub(taken), ..self }
     }
 
+    /// Returns the budget that is left beside what ffmpeg holds.
+    pub(crate) fn beside_ffmpeg(self, coders: u64) -> Self {
+        Self { coders, ..self.beside(coders) }
+    }
+
     /// Checks that so many bytes may be used for something, and otherwise says why it needs them.
     pub(crate) fn allow(self, needed: u64, what: &str, why: &str) -> Result<()> {
         if needed <= self.bytes {
@@ -108,9 +115,13 @@ impl MemoryBudget {
             );
         }
         // Nobody means so few bytes.
+        let beside = match self.coders {
+            0 => String::new(),
+            coders => format!(" beside ffmpeg's codecs, which hold about {}", human(coders)),
+        };
         let unit = if self.bytes < 1 << 16 { "; a number without a unit is bytes: 8G is eight gigabytes" } else { "" };
         bail!(
-            Memory: "{what} needs about {} of memory, but only {} may be used{why}; if that is right, raise {MEMORY}{unit}",
+            Memory: "{what} needs about {} of memory, but only {} may be used{beside}{why}; if that is right, raise {MEMORY}{unit}",
             human_at_least(needed),
             human(self.bytes),
         );

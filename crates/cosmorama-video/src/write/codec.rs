@@ -53,6 +53,14 @@ impl Codec {
         Self::ALL.into_iter().find(|codec| codec.name() == name)
     }
 
+    /// Returns the codec that a container has unless another is chosen, for frames of more than 8 bits or of 8.
+    pub fn usual(container: Container, is_deep: bool) -> Self {
+        match container {
+            Container::Mp4 if is_deep => Self::Hevc,
+            _ => container.codecs()[0],
+        }
+    }
+
     /// Returns ffmpeg's encoders that make it, the best first.
     pub fn encoders(self) -> &'static [&'static str] {
         match self {
@@ -103,9 +111,8 @@ impl Codec {
     ) -> Result<(Self, Encoder), VideoError> {
         let is_deep = settings.is_deep() || settings.colour.is_hdr();
         let usual = match container {
-            Container::Mp4 if is_deep => Self::Hevc,
             Container::WebM if !Self::Vp9.is_in(ffmpeg.encoders()?) => Self::Av1,
-            _ => container.codecs()[0],
+            _ => Self::usual(container, is_deep),
         };
         let codec = settings.codec.unwrap_or(usual);
         let cannot =

@@ -1,6 +1,6 @@
 //! That sequences keep what `--memory` promises.
 
-use crate::bench::{Bench, assert_says, picture};
+use crate::bench::{Bench, assert_says, picture, text};
 use crate::sequence::films::{ffmpeg, has_ffmpeg};
 use serde_json::Value;
 
@@ -26,6 +26,31 @@ fn sequences_of_deep_pictures_take_no_more_memory_than_they_may() {
             assert!(peak < memory + memory / 8, "{depth}: {peak} of {memory} MiB");
         }
     }
+}
+
+/// What ffmpeg holds counts, too: to encode H.264, more than all else.
+#[cfg(feature = "video")]
+#[test]
+fn codecs_of_films_take_their_part_of_the_memory() {
+    if !has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    bench.save("sky.png", &picture(1, 256, 128));
+    let run = |film: &str, more: &[&str]| {
+        let args =
+            ["convert", "sky.png", film, "--to", "fulldome", "--size", "1024", "--memory", "192M", "--threads", "2"];
+        let done = bench.run(&[&args[..], more].concat());
+        (done.status.code(), text(&done.stderr))
+    };
+    let (code, told) = run("film.mp4", &[]);
+    assert_eq!(code, Some(1), "{told}");
+    assert_says(&told, &["ffmpeg, which reads and makes films, needs about", "--video-codec prores holds less"]);
+    let (code, told) = run("film.mov", &["-v"]);
+    assert_eq!(code, Some(0), "{told}");
+    assert_says(&told, &["of which ffmpeg's codecs hold about"]);
+    let (code, told) = run("fast.mp4", &["--video-args", "-preset ultrafast"]);
+    assert_eq!(code, Some(0), "{told}");
 }
 
 /// The estimate that is told, and the most memory that was held, in MiB.

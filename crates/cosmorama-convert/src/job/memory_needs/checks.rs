@@ -171,7 +171,7 @@ impl MemoryBudget {
 
 /// Memory from which budgets hold for the program and all its threads, too. Smaller ones hold for pictures: nobody means that the program
 /// itself is too large.
-const SMALL: u64 = 64 << 20;
+pub(super) const SMALL: u64 = 64 << 20;
 
 /// Says how large the largest picture is.
 fn largest_has(size: Option<(usize, usize)>) -> String {

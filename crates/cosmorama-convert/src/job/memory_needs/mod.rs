@@ -4,6 +4,7 @@
 //! them holds, and not the sum of all.
 
 mod checks;
+mod coders;
 mod footprint;
 mod rings;
 

@@ -10,6 +10,7 @@ use cosmorama_io::{Header, ImageFile, IoError, Limits};
 use cosmorama_spec::{FrameRate, Spec};
 
 use super::{Coming, DamagedFrames, FrameDamage, FrameName, PictureSink, RawFiles, VideoPlan};
+use crate::colour::Light;
 use crate::diagnostic::{Diagnostic, Result};
 
 /// Videos among the inputs: none.
@@ -55,6 +56,10 @@ impl Videos {
 
     pub(crate) fn damage(&self, _: &FrameName) -> Option<FrameDamage> {
         None
+    }
+
+    pub(crate) fn memory(&self, video: &Path) -> Result<u64, IoError> {
+        Err(refusal(video))
     }
 
     pub(crate) fn rate(&self, video: &Path) -> Result<Option<FrameRate>, IoError> {
@@ -107,6 +112,10 @@ impl Videos {
 impl MadeVideos {
     pub(crate) fn holds_alpha(_: &Path, _: Option<&str>, _: bool) -> bool {
         false
+    }
+
+    pub(crate) fn memory(_: &Path, _: Option<&str>, _: (usize, usize), _: &Light) -> u64 {
+        0
     }
 
     pub(crate) fn percent(_: &Path, _: Option<&str>) -> u64 {

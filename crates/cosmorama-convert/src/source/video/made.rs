@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use cosmorama::raster::{EncodedImage, FramePool};
+use cosmorama::raster::{Depth, EncodedImage, FramePool};
 use cosmorama_io::IoError;
 use cosmorama_io::pending::Unfinished;
 use cosmorama_spec::FrameRate;
@@ -16,6 +16,7 @@ use cosmorama_video::{
 
 use super::raw::{RawWriter, aside, foreign};
 use super::{DamagedFrames, PictureSink, RawKind, VideoPlan, Videos, described};
+use crate::colour::Light;
 use crate::diagnostic::{Code, ConvertError, Diagnostic, FPS, FRAMES, Result, SIZE, VIDEO_CODEC, usage, usage_as};
 
 /// Videos that a conversion makes.
@@ -62,8 +63,8 @@ struct Shown<'a> {
 const USUAL: FrameRate = FrameRate { frames: 30, seconds: 1 };
 
 /// Returns the codec of a video, by its name unless one is chosen.
-fn codec_of(path: &Path, chosen: Option<&str>) -> Option<Codec> {
-    let usual = || Some(Container::of_path(path)?.codecs()[0]);
+fn codec_of(path: &Path, chosen: Option<&str>, is_deep: bool) -> Option<Codec> {
+    let usual = || Some(Codec::usual(Container::of_path(path)?, is_deep));
     chosen.map_or_else(usual, Codec::of_name)
 }
 
@@ -93,13 +94,20 @@ impl MadeVideos {
     pub(crate) fn holds_alpha(path: &Path, codec: Option<&str>, is_deep: bool) -> bool {
         match RawKind::of(path) {
             Some(kind) => kind == RawKind::Pam,
-            None => codec_of(path, codec).is_some_and(|codec| codec.holds_alpha(is_deep)),
+            None => codec_of(path, codec, is_deep).is_some_and(|codec| codec.holds_alpha(is_deep)),
         }
+    }
+
+    /// Returns the bytes of memory that ffmpeg holds to make a video of frames of a size, about.
+    pub(crate) fn memory(path: &Path, codec: Option<&str>, size: (usize, usize), light: &Light) -> u64 {
+        let is_deep = light.depth != Depth::Eight;
+        let codec = codec_of(path, codec, is_deep).filter(|_| RawKind::of(path).is_none());
+        codec.map_or(0, |codec| codec.encoding_bytes(size, is_deep, light.channels.has_alpha()))
     }
 
     /// Returns the bytes of a video in hundredths of those of its samples, about: those of rendered pictures with some noise.
     pub(crate) fn percent(path: &Path, codec: Option<&str>) -> u64 {
-        let coded = codec_of(path, codec).filter(|_| RawKind::of(path).is_none());
+        let coded = codec_of(path, codec, false).filter(|_| RawKind::of(path).is_none());
         coded.map_or(100, |codec| match codec {
             Codec::H264 | Codec::Hevc | Codec::Av1 | Codec::Vp9 => 10,
             Codec::ProRes | Codec::DnxHr => 25,

@@ -150,6 +150,14 @@ impl Videos {
         lock(&source.marks).of_frame(name.frame, |damaged| source.traced(damaged))
     }
 
+    /// Returns the bytes of memory that ffmpeg holds to read a video, about.
+    pub(crate) fn memory(&self, video: &Path) -> Result<u64, IoError> {
+        let source = self.source(video)?;
+        let Content::Film { info, half, .. } = &source.content else { return Ok(0) };
+        let infos = std::iter::once(&**info).chain(half.iter().map(|half| &half.info));
+        Ok(infos.map(|info| info.decoding_bytes(source.threads)).fold(0, u64::saturating_add))
+    }
+
     /// Returns the rate; `None` if it varies, or none is said.
     pub(crate) fn rate(&self, video: &Path) -> Result<Option<FrameRate>, IoError> {
         Ok(match &self.source(video)?.content {
@@ -321,8 +329,7 @@ impl Source {
         // Bare streams announce nothing; what was counted, their reader misses.
         info.announced = info.announced.or(Some(Announced { frames, by: AnnouncedBy::Count }));
         let content = Content::Film { ffmpeg, info: Box::new(info), half: half.map(Box::new) };
-        let count = frames;
-        Ok(Self::new(video, (content, header), (damaged, threads), count))
+        Ok(Self::new(video, (content, header), (damaged, threads), frames))
     }
 
     fn new(
