@@ -22,6 +22,8 @@ struct JsonReport<'a> {
     cpu_seconds: JsonCpuSeconds,
     peak_memory_bytes: Option<u64>,
     estimated_memory_bytes: u64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    codec_memory_bytes: Option<u64>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     light: Vec<JsonLight>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -120,6 +122,7 @@ pub(crate) fn to_json(report: &Report) -> Result<String> {
         cpu_seconds: JsonCpuSeconds { decode, plan, filter, encode },
         peak_memory_bytes: report.peak_memory_bytes,
         estimated_memory_bytes: report.estimated_memory_bytes,
+        codec_memory_bytes: Some(report.codec_memory_bytes).filter(|bytes| *bytes > 0),
         light: report.light.iter().map(JsonLight::of).collect(),
         interpolated: report.interpolated.iter().map(JsonInterpolated::of).collect(),
         warnings: told(report, |severity| severity != Severity::Note),

@@ -148,7 +148,7 @@ pub enum VideoError {
         reason: String,
     },
     /// The output's extension belongs to no container.
-    #[error("{}: no video has this extension; expected .mp4, .m4v, .mov, .mkv or .webm", path.display())]
+    #[error("{}: films are not written with this extension; expected .mp4, .m4v, .mov, .mkv or .webm", path.display())]
     UnknownContainer {
         /// The file to write.
         path: PathBuf,

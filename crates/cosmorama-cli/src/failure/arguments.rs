@@ -43,6 +43,11 @@ impl Typed {
         self.0.iter().map(String::as_str).find(|word| word.contains(char::REPLACEMENT_CHARACTER))
     }
 
+    /// Returns the argument of an encoder that stands right before a word, which belongs to it.
+    pub(super) fn video_args_before(&self, word: &str) -> Option<&str> {
+        self.0.windows(3).find(|words| words[0] == "--video-args" && words[2] == word).map(|words| &*words[1])
+    }
+
     /// Returns the value of an option, given as `--name value` or `--name=value`.
     pub(super) fn value(&self, option: &str) -> Option<&str> {
         self.0.iter().enumerate().find_map(|(at, word)| match word.strip_prefix(option)? {

@@ -37,6 +37,9 @@ pub(super) fn message(argument: &str, typed: &Typed) -> String {
 
 /// Returns advice on a word that belongs to no option.
 fn lone_word(word: &str, typed: &Typed) -> String {
+    if let Some(first) = typed.video_args_before(word) {
+        return format!("quotes hold an encoder's arguments together: --video-args '{first} {word}'");
+    }
     let key = word.split_once('=').map(|(key, value)| (key.trim_start_matches(':'), value));
     if let Some((key, value)) = key.filter(|(key, _)| SpecKind::all().any(|kind| kind.key(key).is_some())) {
         return match SpecKind::all().find_map(|kind| with_key(kind, kind.key(key)?, value, typed)) {

@@ -200,13 +200,10 @@ impl Checked {
         };
         let threads = self.pool.current_num_threads();
         let needed = self.job.estimated_bytes(threads);
-        let coders = match self.job.memory.coders {
-            0 => String::new(),
-            coders => format!(", of which ffmpeg's codecs hold about {}", human(coders)),
-        };
+        let codecs = self.job.memory.with_codecs();
         let why_threads = if limits.threads.is_some() { format!("as {THREADS} says") } else { "one a core".to_owned() };
         let message = format!(
-            "{} may be used, {why}{coders}, and about {} are needed for a frame; {}, {why_threads}",
+            "{} may be used{codecs}, {why}, and about {} are needed for a frame; {}, {why_threads}",
             human(self.allowed.bytes),
             human(needed),
             counted(threads, "thread")

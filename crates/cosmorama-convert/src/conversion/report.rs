@@ -28,6 +28,8 @@ pub struct Report {
     pub peak_memory_bytes: Option<u64>,
     /// Memory that was expected to be needed, at most.
     pub estimated_memory_bytes: u64,
+    /// Memory that ffmpeg's codecs were expected to hold beside it.
+    pub codec_memory_bytes: u64,
     /// Figures of maps of light, by frame; empty for pictures.
     pub light: Vec<LightReport>,
     /// Differences of interpolated maps from computed ones, where that is asked for.
@@ -70,6 +72,7 @@ impl Report {
             cpu_seconds: stages.cpu_seconds(),
             peak_memory_bytes: peak_bytes(),
             estimated_memory_bytes: 0,
+            codec_memory_bytes: 0,
             light: Vec::new(),
             interpolated: Vec::new(),
             diagnostics,

@@ -58,7 +58,8 @@ impl Checked {
             BTreeSet::from([PathBuf::from(&settings.input)])
         };
         let report = Report::new(inputs, (&job.outputs, further), start.elapsed(), &stages, diagnostics);
-        Ok(Report { light: lit, interpolated, estimated_memory_bytes: estimated, ..report })
+        let codec_memory_bytes = job.memory.codecs;
+        Ok(Report { light: lit, interpolated, estimated_memory_bytes: estimated, codec_memory_bytes, ..report })
     }
 
     /// Returns the options of the writer. The encoders of videos are started with it.

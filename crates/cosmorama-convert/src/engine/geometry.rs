@@ -6,6 +6,7 @@ use crate::colour::LayerContent;
 use crate::diagnostic::{Code, Diagnostic, KERNEL, MEMORY};
 use crate::engine::{Balance, BalancedLight, Shares, balance};
 use crate::job::{ConvertJob, STRIP};
+use crate::source::MemoryBudget;
 use crate::target::{Strip, TargetView};
 
 /// Light of a world in a frame.
@@ -38,9 +39,10 @@ fn unbalanced() -> Diagnostic {
 }
 
 /// Returns the warning that reusable geometry does not fit into memory.
-fn anew() -> Diagnostic {
+fn anew(memory: MemoryBudget) -> Diagnostic {
+    let with = memory.with_codecs();
     let message = format!(
-        "there is not memory enough to hold the geometry: it is computed anew for each frame; give more with {MEMORY}"
+        "there is not memory enough to hold the geometry{with}: it is computed anew for each frame; give more with {MEMORY}"
     );
     Diagnostic::warning(Code::PlanAnew, message)
 }
@@ -273,7 +275,7 @@ fn plans(
     };
     let plans = views.iter().map(plan_of).collect::<Result<_, Stopped>>()?;
     if lacks_room && is_repeated {
-        warnings.push(anew());
+        warnings.push(anew(job.memory));
     }
     Ok(plans)
 }

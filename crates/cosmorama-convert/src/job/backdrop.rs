@@ -131,6 +131,13 @@ impl FoundBackdrop {
         Ok((geometry, input))
     }
 
+    /// Returns the inputs of this backdrop and of those behind it, with the sources of their files.
+    pub(super) fn inputs(&self) -> Vec<(&Input, &dyn Files)> {
+        let mut inputs = self.further.as_deref().map_or_else(Vec::new, Self::inputs);
+        inputs.push((&self.input, &*self.files));
+        inputs
+    }
+
     /// Returns the frames that a still input has before this backdrop; none where nothing moves.
     pub(crate) fn frames(&self) -> &[Option<u64>] {
         &self.frames

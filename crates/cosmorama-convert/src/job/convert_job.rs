@@ -221,7 +221,7 @@ impl ConvertJob {
         }
         // What nothing of the input covers shows the backdrop.
         let in_front = Missing::Fill(Rgba::TRANSPARENT);
-        let mut memory = memory;
+        let mut memory = memory.beside_films((settings, &target), (&input, &*files), backdrop.as_ref())?;
         let backdrop = match backdrop.take() {
             None => None,
             Some(found) => {
@@ -236,8 +236,6 @@ impl ConvertJob {
         };
         let behind = backdrop.as_ref().map(|job| &job.light);
         let mut light = Light::resolve(settings, &input, &target, behind, warnings)?;
-        let layers = backdrop.iter().flat_map(ConvertJob::layers).map(|layer| (&layer.input, &*layer.files));
-        memory = memory.beside_coders(layers.chain([(&input, &*files)]), settings, (&target, &light))?;
         let layers = if content == Content::World && settings.light.is_none() {
             LayerPlan::resolve(settings, (&input, &target, &light), &mut filter, warnings)?
         } else {

@@ -17,9 +17,13 @@ pub struct MemoryBudget {
     too_much: Option<u64>,
     /// Whether it is what `ulimit -v` leaves: a program that needs a little more is aborted.
     pub(crate) is_of_addresses: bool,
-    /// Bytes that ffmpeg holds beside, of the same memory.
-    pub(crate) coders: u64,
+    /// Bytes that ffmpeg's codecs hold beside, of the same memory.
+    pub(crate) codecs: u64,
 }
+
+/// Memory from which budgets hold for the program and all its threads, too. Smaller ones hold for pictures: nobody means that the program
+/// itself is too large.
+pub(crate) const SMALL: u64 = 64 << 20;
 
 /// Default share of free memory.
 const DEFAULT_PART: f64 = 0.75;
@@ -44,7 +48,7 @@ impl MemoryBudget {
         };
         let all = all_bytes().unwrap_or(u64::MAX);
         let is_of_addresses = asked.is_none() && addresses_left().is_some_and(|left| part(DEFAULT_PART) >= left / 2);
-        Self { bytes: wanted.min(all), too_much: (wanted > all).then_some(wanted), is_of_addresses, coders: 0 }
+        Self { bytes: wanted.min(all), too_much: (wanted > all).then_some(wanted), is_of_addresses, codecs: 0 }
     }
 
     /// Checks that a mask of this size fits while it is made from a picture of so many bytes per pixel.
@@ -95,9 +99,17 @@ impl MemoryBudget {
         Self { bytes: self.bytes.saturating_sub(taken), ..self }
     }
 
-    /// Returns the budget that is left beside what ffmpeg holds.
-    pub(crate) fn beside_ffmpeg(self, coders: u64) -> Self {
-        Self { coders, ..self.beside(coders) }
+    /// Returns the budget that is left beside ffmpeg's codecs. A limit of addresses is each program's own, and a small one is for pictures
+    /// alone.
+    ///
+    /// # Errors
+    /// When they hold more; `why` says of what.
+    pub(crate) fn beside_codecs(self, codecs: u64, why: &str) -> Result<Self> {
+        if self.is_of_addresses || self.bytes < SMALL {
+            return Ok(self);
+        }
+        self.allow(codecs, "ffmpeg, which reads and makes films,", why)?;
+        Ok(Self { codecs, ..self.beside(codecs) })
     }
 
     /// Checks that so many bytes may be used for something, and otherwise says why it needs them.
@@ -105,26 +117,30 @@ impl MemoryBudget {
         if needed <= self.bytes {
             return Ok(());
         }
+        let needed = human_at_least(needed.saturating_add(self.codecs));
+        let (all, with) = (self.bytes.saturating_add(self.codecs), self.with_codecs());
         if let Some(asked) = self.too_much {
             bail!(
-                Memory: "{what} needs about {} of memory, but there are {}, whatever {MEMORY} says ({}){why}; make pictures smaller, or \
-                 do it where there is more memory",
-                human_at_least(needed),
-                human(self.bytes),
+                Memory: "{what} needs about {needed} of memory{with}, but there are {}, whatever {MEMORY} says ({}){why}; make pictures \
+                 smaller, or do it where there is more memory",
+                human(all),
                 human(asked),
             );
         }
         // Nobody means so few bytes.
-        let beside = match self.coders {
-            0 => String::new(),
-            coders => format!(" beside ffmpeg's codecs, which hold about {}", human(coders)),
-        };
-        let unit = if self.bytes < 1 << 16 { "; a number without a unit is bytes: 8G is eight gigabytes" } else { "" };
+        let unit = if all < 1 << 16 { "; a number without a unit is bytes: 8G is eight gigabytes" } else { "" };
         bail!(
-            Memory: "{what} needs about {} of memory, but only {} may be used{beside}{why}; if that is right, raise {MEMORY}{unit}",
-            human_at_least(needed),
-            human(self.bytes),
+            Memory: "{what} needs about {needed} of memory{with}, but only {} may be used{why}; if that is right, raise {MEMORY}{unit}",
+            human(all),
         );
+    }
+
+    /// Returns words about what ffmpeg's codecs hold; none where they hold nothing.
+    pub(crate) fn with_codecs(self) -> String {
+        match self.codecs {
+            0 => String::new(),
+            codecs => format!(" with ffmpeg's codecs, which hold about {}", human(codecs)),
+        }
     }
 }
 

@@ -3,6 +3,12 @@
 /// Name of AVI.
 pub(crate) const AVI: &str = "avi";
 
+/// Name of FLV.
+pub(super) const FLV: &str = "flv";
+
+/// Name of ASF, which WMV is, too.
+pub(super) const ASF: &str = "asf";
+
 /// Returns whether a container is MP4 or MOV.
 pub(crate) fn is_boxes(container: &str) -> bool {
     container.split(',').any(|name| name == "mov" || name == "mp4")

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use super::container::{AVI, begins_anywhere, is_bare, is_boxes, is_matroska};
+use super::container::{ASF, AVI, FLV, begins_anywhere, is_bare, is_boxes, is_matroska};
 use super::first_frame::FirstFrame;
 use super::stream::{Stream, delay, ratio, text};
 use super::timeline::{CodedStream, PATIENCE};
@@ -70,7 +70,10 @@ impl Ffmpeg {
         info.timecode = timecode(&streams[number], streams, format);
         info.cut = cut;
         let alone = others.is_empty().then(|| text(format, "duration")).flatten();
-        info.duration = info.duration.or_else(|| alone?.parse().ok());
+        // FLV counts it from 0, and not from the first frame; ASF tells that of the longest stream.
+        let before = if container == FLV { info.start as f64 * info.time_base.to_f64() } else { 0.0 };
+        info.duration = info.duration.or_else(|| Some(alone?.parse::<f64>().ok()? - before));
+        info.duration = info.duration.filter(|_| container != ASF || others.is_empty());
         info.others = others;
         info.announced = info.announced.or_else(|| announced_by_duration(&info));
         self.complete(&mut info)?;

@@ -1,7 +1,8 @@
 use std::path::Path;
 use std::time::Duration;
 
-use super::container::begins_anywhere;
+use super::Places;
+use super::container::{AVI, begins_anywhere};
 use crate::{Ffmpeg, Ratio, VideoError, VideoInfo};
 
 /// Times of a video's frames.
@@ -219,7 +220,10 @@ impl Ffmpeg {
     /// are shown.
     pub(crate) fn coded_frames(&self, info: &VideoInfo, part: &[&str]) -> Result<Vec<CodedFrame>, VideoError> {
         let stream = CodedStream::of(info);
-        let packets = self.packets(&info.path, stream, part)?;
+        let mut packets = self.packets(&info.path, stream, part)?;
+        if info.container == AVI && is_mpeg(&info.codec) {
+            insert_lost(&mut packets, Places::compared(&info.path, info.stream, u64::MAX).resized());
+        }
         Ok(if stream.tells_times(&packets) { timed(&packets) } else { Vec::new() })
     }
 
@@ -237,6 +241,12 @@ impl Ffmpeg {
             }
             Ok(())
         })?;
+        // A first frame of MPEG-1 has a time of its own where the others have none, and is not shown one frame before its next.
+        if let (MPEG1, [first, second, ..]) = (stream.codec, &mut *packets)
+            && second.shown.is_none()
+        {
+            first.shown = None;
+        }
         Ok(packets)
     }
 }
@@ -279,7 +289,21 @@ impl<'a> CodedStream<'a> {
 
 /// Returns whether a codec is one of MPEG's first, whose B frames are decoded when they are shown. H.264 has others.
 fn is_mpeg(codec: &str) -> bool {
-    ["mpeg1video", "mpeg2video", "mpeg4"].contains(&codec)
+    [MPEG1, "mpeg2video", "mpeg4"].contains(&codec)
+}
+
+const MPEG1: &str = "mpeg1video";
+
+/// Inserts packets at the places that an AVI lost with all their bytes: that of the frame before them tells when theirs is shown.
+fn insert_lost(packets: &mut Vec<Packet>, places: &[i64]) {
+    for place in places {
+        let behind = packets.iter().position(|packet| packet.decoded.is_some_and(|decoded| decoded >= *place));
+        let Some(behind) = behind.filter(|behind| *behind > 0 && packets[*behind].decoded != Some(*place)) else {
+            continue;
+        };
+        let lost = Packet { shown: None, decoded: Some(*place), is_key: false, is_shown: true };
+        packets.insert(behind, lost);
+    }
 }
 
 /// Coded frame, as ffprobe tells it.

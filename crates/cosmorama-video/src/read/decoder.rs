@@ -55,7 +55,7 @@ pub(super) struct Decoder {
     /// Whether frames before it are decoded and dropped.
     is_partial: bool,
     /// Whether something was heard before it: frames may be damaged, or lack others before the place where decoding began.
-    pub(super) is_doubtful: bool,
+    is_doubtful: bool,
     /// Whether a message of an error is about the frame that comes next, which is painted over and given all the same.
     is_painted: bool,
 }

@@ -4,6 +4,8 @@ use std::ops::Range;
 
 use cosmorama::raster::{Channels, Depth};
 
+use super::ReadOptions;
+
 use crate::colour::{Axis, Coding, Yuv420ToRgb};
 use crate::ffmpeg::EXACT;
 use crate::{ChromaPlace, Turn, VideoError, VideoInfo};
@@ -105,6 +107,21 @@ impl Raw {
 fn yuv420(info: &VideoInfo) -> Option<&'static str> {
     let is_upright = info.turn == Turn::default();
     ["yuv420p", "yuvj420p"].into_iter().find(|name| is_upright && *name == info.pixel_format)
+}
+
+/// Checks that a frame takes no more memory than it may.
+pub(super) fn check_memory(info: &VideoInfo, options: &ReadOptions) -> Result<(), VideoError> {
+    let (raw, (width, height)) = (Raw::of(info)?, info.size());
+    // Planes are held beside the picture that is made of them.
+    let planes = if raw.pixels == Pixels::Rgb { 0 } else { raw.samples((width, height)) };
+    let pixels = width as u64 * height as u64 * raw.channels.count() as u64;
+    let needed = u128::from(pixels + planes) * raw.depth.bytes() as u128;
+    let limit = options.memory.min(isize::MAX as u64);
+    if needed > u128::from(limit) {
+        let size = (width as u64, height as u64);
+        return Err(VideoError::TooLarge { name: info.path.display().to_string(), size, needed, limit });
+    }
+    Ok(())
 }
 
 /// Returns the place of a video's chroma samples.

@@ -1,5 +1,5 @@
 use super::decoder::{Decoded, Decoder, Ended, Next, Start};
-use super::filters::{Pixels, Raw};
+use super::filters::check_memory;
 use super::preceding::{Beside, DELAY, Damage, Looked, PATIENCE};
 use super::{Damaged, Fault, FrameCondition, ReadOptions, VideoFrame};
 use crate::probe::{AVI, Places, Uncounted};
@@ -36,6 +36,8 @@ pub struct VideoReader {
     looked_to: u64,
     /// Whether that was not done yet for frames before the first.
     may_look_before: bool,
+    /// Whether a place before the first frame has another size than an AVI's index tells, so that decoders may be silent about it.
+    is_behind_resized: bool,
     /// Fault of the first frame, which was found so.
     own: Option<Fault>,
     faults: Vec<Fault>,
@@ -71,6 +73,19 @@ impl VideoReader {
     /// When a frame is larger than permitted, the video is of a kind that cannot be read right (interlaced, or of a matrix that
     /// is no matrix), the frames asked for are not there, or ffmpeg cannot be run.
     pub fn open(ffmpeg: &Ffmpeg, info: &VideoInfo, options: ReadOptions) -> Result<Self, VideoError> {
+        Self::started(ffmpeg, info, options, true)
+    }
+
+    /// Starts to decode, without a second look.
+    pub(super) fn looking_no_further(
+        ffmpeg: &Ffmpeg,
+        info: &VideoInfo,
+        options: ReadOptions,
+    ) -> Result<Self, VideoError> {
+        Self::started(ffmpeg, info, options, false)
+    }
+
+    fn started(ffmpeg: &Ffmpeg, info: &VideoInfo, options: ReadOptions, looks_again: bool) -> Result<Self, VideoError> {
         check_memory(info, &options)?;
         if let (Some(CutShort { expected, found }), None, Damaged::Error) = (info.cut, &options.frames, options.damaged)
         {
@@ -91,9 +106,7 @@ impl VideoReader {
         }
         let first = options.frames.as_ref().map_or(0, |range| *range.start());
         let start = Start::at(first, info, &timeline);
-        let mut decoder = Decoder::start(ffmpeg, info, &options, start)?;
-        let places = if info.container == AVI { Places::read(&info.path, info.stream) } else { Places::default() };
-        decoder.is_doubtful |= places.is_resized_before(timeline.time(first).unwrap_or(0));
+        let decoder = Decoder::start(ffmpeg, info, &options, start)?;
         let mut reader = Self {
             ffmpeg: ffmpeg.clone(),
             info: info.clone(),
@@ -103,30 +116,22 @@ impl VideoReader {
             expected: first,
             ahead: None,
             held: None,
-            places,
+            places: Places::default(),
             complaint: None,
             total: None,
             last: 0,
             may_restart: start.seek.is_some(),
-            looks_again: true,
+            looks_again,
             looked_to: 0,
-            may_look_before: true,
+            may_look_before: looks_again,
+            is_behind_resized: false,
             own: None,
             faults: Vec::new(),
             beside: Vec::new(),
             foreseen: Vec::new(),
         };
-        reader.tell_of_uncounted()?;
+        reader.compare_places(start.seek)?;
         Ok(reader)
-    }
-
-    /// Starts to decode, without a second look.
-    pub(super) fn looking_no_further(
-        ffmpeg: &Ffmpeg,
-        info: &VideoInfo,
-        options: ReadOptions,
-    ) -> Result<Self, VideoError> {
-        Ok(Self { looks_again: false, may_look_before: false, ..Self::open(ffmpeg, info, options)? })
     }
 
     /// Returns the next frame; `None` after the last.
@@ -229,7 +234,7 @@ impl VideoReader {
                 continue;
             }
             let has_sought = std::mem::take(&mut self.may_restart);
-            if is_doubtful && std::mem::take(&mut self.may_look_before) {
+            if (is_doubtful || self.is_behind_resized) && std::mem::take(&mut self.may_look_before) {
                 let from = self.look_before()?;
                 if has_sought {
                     // Some decoders make up frames that they lack: decoding begins again, farther before.
@@ -274,7 +279,7 @@ impl VideoReader {
         self.decoder = None;
         self.decoder = Some(Decoder::start(&self.ffmpeg, &self.info, &self.options, start)?);
         self.may_restart = seek.is_some();
-        Ok(())
+        self.tell_of_uncounted(seek)
     }
 
     /// Finds out what is damaged around the first frame that is asked for. Returns the frame from which was looked.
@@ -399,16 +404,35 @@ impl VideoReader {
         !self.info.is_variable && self.timeline.time(frame).is_some_and(is_empty)
     }
 
-    /// Tells of frames behind a place of an AVI that ffmpeg does not count.
-    fn tell_of_uncounted(&mut self) -> Result<(), VideoError> {
-        let Some(Uncounted { place, byte }) = self.places.uncounted() else { return Ok(()) };
-        let frame = self.timeline.frame(place);
+    /// Compares an AVI with its index, as far as frames are asked for.
+    fn compare_places(&mut self, seek: Option<f64>) -> Result<(), VideoError> {
+        if self.info.container != AVI {
+            return Ok(());
+        }
+        // A tick is a place, and what is shown later may be decoded before.
+        let place = |frame: u64| self.timeline.time(frame).and_then(|time| u64::try_from(time).ok());
+        let last = self.options.frames.as_ref().and_then(|range| place(*range.end()));
+        let count = last.map_or(u64::MAX, |last| last.saturating_add(DELAY));
+        let count = if self.looks_again { count } else { 0 };
+        self.places = Places::compared(&self.info.path, self.info.stream, count);
+        self.is_behind_resized = place(self.expected).is_some_and(|first| self.places.is_resized_before(first));
+        self.tell_of_uncounted(seek)
+    }
+
+    /// Tells of frames behind a place of an AVI that ffmpeg does not count, where it begins to read before that place.
+    fn tell_of_uncounted(&mut self, seek: Option<f64>) -> Result<(), VideoError> {
+        /// Seconds that ffmpeg seeks farther back for codecs that keep frames back, and more.
+        const BACK: f64 = 0.2;
+        let ticks = |seek: f64| (seek + self.info.file_start - BACK) / self.info.time_base.to_f64();
+        let from = seek.map_or(0, |seek| ticks(seek) as i64);
+        let Some(Uncounted { place, byte }) = self.places.take_uncounted_from(from) else { return Ok(()) };
+        let frame = self.timeline.frame(place).max(self.first_asked());
         let end = self.looked().last().map_or(frame, |last| last.max(frame)) + 1;
         if !self.options.looks_at_any(&(frame..end)) {
             return Ok(());
         }
         let reason = format!(
-            "at byte {byte}, where the file's index tells of it, no frame begins; those behind it come too early"
+            "the file's index tells of a frame at byte {byte}, where none begins; those behind it come too early"
         );
         self.note(Fault { frame, count: end.min(self.end_of_range()) - frame, reason, is_given: true })
     }
@@ -436,7 +460,8 @@ impl VideoReader {
 
     /// Returns whether a frame belongs to a gap that was told already.
     fn is_told(&self, frame: u64) -> bool {
-        self.faults.last().is_some_and(|fault| (fault.frame..fault.frame + fault.count).contains(&frame))
+        let holds = |fault: &Fault| (fault.frame..fault.frame + fault.count).contains(&frame);
+        self.faults.last().is_some_and(|fault| !fault.is_given && holds(fault))
     }
 
     fn first_asked(&self) -> u64 {
@@ -498,7 +523,7 @@ impl VideoReader {
 
     /// Notes a fault, or fails for it, whoever looks at its frames.
     fn note(&mut self, fault: Fault) -> Result<(), VideoError> {
-        let is_too_long = self.options.damaged == Damaged::Hold && fault.count > LONGEST_HOLD;
+        let is_too_long = self.options.damaged == Damaged::Hold && !fault.is_given && fault.count > LONGEST_HOLD;
         if self.options.damaged == Damaged::Error || is_too_long {
             let Fault { frame, reason, .. } = fault;
             return Err(VideoError::DamagedFrame { path: self.info.path.clone(), frame, reason });
@@ -542,6 +567,7 @@ impl VideoReader {
     /// Returns the number of frames that the file should give.
     fn all_frames(&self) -> Result<u64, VideoError> {
         let announced = self.info.announced;
+        let is_lacking = self.info.cut.is_some() && self.end_of_range() > self.expected;
         Ok(match (self.timeline.frames(), announced) {
             (_, Some(Announced { frames, by: AnnouncedBy::Count })) if self.info.cut.is_some() => frames,
             (Some(frames), Some(told)) if self.info.container == AVI => frames.max(told.frames),
@@ -555,7 +581,7 @@ impl VideoReader {
             (None, Some(Announced { frames, by: AnnouncedBy::Count })) => frames,
             // A duration may be rounded up, if nothing was said of damage.
             (None, Some(Announced { frames, by: AnnouncedBy::Duration }))
-                if frames <= self.expected + 1 && self.complaint.is_none() =>
+                if frames <= self.expected + 1 && self.complaint.is_none() && !is_lacking =>
             {
                 self.expected
             }
@@ -570,17 +596,3 @@ const EARLY: &str = "it comes before the first key frame: the video was cut out 
 
 /// Reason of a frame that is missing where nothing is said of it.
 const ENDS: &str = "the video ends before it";
-
-fn check_memory(info: &VideoInfo, options: &ReadOptions) -> Result<(), VideoError> {
-    let (raw, (width, height)) = (Raw::of(info)?, info.size());
-    // Planes are held beside the picture that is made of them.
-    let planes = if raw.pixels == Pixels::Rgb { 0 } else { raw.samples((width, height)) };
-    let pixels = width as u64 * height as u64 * raw.channels.count() as u64;
-    let needed = u128::from(pixels + planes) * raw.depth.bytes() as u128;
-    let limit = options.memory.min(isize::MAX as u64);
-    if needed > u128::from(limit) {
-        let size = (width as u64, height as u64);
-        return Err(VideoError::TooLarge { name: info.path.display().to_string(), size, needed, limit });
-    }
-    Ok(())
-}

@@ -1,6 +1,6 @@
 //! Places for frames in an AVI: empty ones, and those that are lost, of which its index tells.
 
-use cosmorama_video::{Damaged, Fault, FrameCondition, ReadOptions, VideoError, VideoReader};
+use cosmorama_video::{Damaged, Fault, FrameCondition, ReadOptions, VideoError, VideoFrame, VideoReader};
 
 use crate::common::{ffmpeg, frames, moving, of, run};
 use crate::damage::{damage, packet, with};
@@ -53,13 +53,17 @@ fn frames_behind_a_destroyed_mark_of_an_avi_are_told() {
         assert!(matches!(error, VideoError::DamagedFrame { frame: 30, .. }), "{error}");
         assert!(frames(&ffmpeg, &path, of(31, 35)).is_err());
         assert!(frames(&ffmpeg, &path, of(2, 29)).unwrap() == whole[2..30]);
+        // By the index ffmpeg seeks to a key frame behind it, and counts from there.
+        assert!(frames(&ffmpeg, &path, of(55, 59)).unwrap() == whole[55..60]);
         let info = ffmpeg.probe(&path).unwrap();
         let mut reader = VideoReader::open(&ffmpeg, &info, with(Damaged::Hold)).unwrap();
         let mut count = 0;
         while reader.next_frame().unwrap().is_some() {
             count += 1;
         }
-        let [Fault { frame: 30, count: 30, is_given: true, .. }] = reader.faults() else {
+        let [Fault { frame: 30, count: 30, is_given: true, .. }, Fault { frame: 59, count: 1, is_given: false, .. }] =
+            reader.faults()
+        else {
             panic!("{:?}", reader.faults())
         };
         assert_eq!(count, 60);
@@ -69,6 +73,43 @@ fn frames_behind_a_destroyed_mark_of_an_avi_are_told() {
     let error = frames(&ffmpeg, &path, of(31, 34)).unwrap_err();
     assert!(matches!(error, VideoError::DamagedFrame { frame: 30, .. }), "{error}");
     assert!(frames(&ffmpeg, &path, of(38, 40)).unwrap() == whole[38..=40]);
+}
+
+/// Where MPEG-4 lost all bytes of a frame, its decoder gives the one before once more in that place.
+#[test]
+fn no_frame_passes_for_one_that_lost_its_bytes() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.avi");
+    run(&format!("{} -c:v mpeg4 -g 12 -bf 2", moving(64, 32, "25", 36)), &path);
+    let whole = frames(&ffmpeg, &path, ReadOptions::default()).unwrap();
+    let bytes = std::fs::read(&path).unwrap();
+    for number in [4, 7, 16] {
+        std::fs::write(&path, &bytes).unwrap();
+        let (place, _) = packet(&path, number);
+        let mut damaged = bytes.clone();
+        damaged[place - 4..place].fill(0);
+        std::fs::write(&path, damaged).unwrap();
+        for frame in number as u64 - 2..number as u64 + 6 {
+            if let Ok(part) = frames(&ffmpeg, &path, of(frame, frame)) {
+                assert!(part == whole[frame as usize..=frame as usize], "place {number}: frame {frame}");
+            }
+        }
+        let info = ffmpeg.probe(&path).unwrap();
+        let mut reader = VideoReader::open(&ffmpeg, &info, with(Damaged::Hold)).unwrap();
+        let mut held = Vec::new();
+        while let Some(frame) = reader.next_frame().unwrap() {
+            held.push(frame);
+        }
+        let damaged: Vec<_> = reader.faults().iter().map(|fault| fault.frame..fault.frame + fault.count).collect();
+        let traces = ffmpeg.coded_order(&info).unwrap().unwrap().traces(&damaged);
+        let is_passed =
+            |frame: &&VideoFrame| frame.condition == FrameCondition::Whole && !traces.contains(&frame.index);
+        for frame in held.iter().filter(is_passed) {
+            assert!(frame.image == whole[frame.index as usize].image, "place {number}: frame {}", frame.index);
+        }
+        assert!(held.len() == whole.len() && held.iter().filter(is_passed).count() > 20, "place {number}");
+    }
 }
 
 /// Two places at the end of an AVI are empty: what they repeat is whole, but not where another frame stands for a damaged one.

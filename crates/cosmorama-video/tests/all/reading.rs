@@ -113,6 +113,10 @@ fn every_frame_is_read_whatever_its_container_tells() {
         ("f.h264", "-c:v libx264 -bf 2", 0),
         ("g.m2v", "-c:v mpeg2video -bf 2", 0),
         ("h.m2p", "-c:v mpeg2video -bf 2 -f mpeg", 0),
+        ("i.avi", "-c:v mpeg1video", 0),
+        ("j.flv", "-c:v libx264 -bf 2", 0),
+        // Sound that ends after the last frame.
+        ("k.wmv", "-f lavfi -i sine=duration=6 -c:v wmv2 -c:a wmav2", 0),
     ] {
         let path = folder.path().join(name);
         let arguments = arguments.replace("SOUND", "-f lavfi -i sine=duration=4");

@@ -4,7 +4,7 @@ use crate::bench::{Bench, assert_says, picture};
 use cosmorama_spec::{Spec, SpecError};
 
 /// What follows `cosmorama`, and a part of the message: what to type.
-const MISTAKES: [(&str, &str); 68] = [
+const MISTAKES: [(&str, &str); 69] = [
     // Keys of SPECs as options.
     ("convert sky.png out.png --tilt 20", "tilt is a key of fulldome: --to fulldome:tilt=20"),
     ("convert sky.png out.png --to fulldome --tilt 20", "tilt is a key of fulldome: --to fulldome:tilt=20"),
@@ -48,6 +48,10 @@ const MISTAKES: [(&str, &str); 68] = [
     (
         "convert sky.png out.png --to fulldome --size 64 x 64",
         "a size is one word, without spaces, as in --size 4096x2048",
+    ),
+    (
+        "convert sky.png out.mp4 --to fulldome --video-args -crf 20",
+        "quotes hold an encoder's arguments together: --video-args '-crf 20'",
     ),
     ("convert sky.png out.png --to cube --rotate 90", "--to cube:rotate="),
     ("convert sky.png out.png --to omnimax --axis 120", "--to omnimax:axis=DEGREES"),

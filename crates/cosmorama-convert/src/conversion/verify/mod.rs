@@ -88,7 +88,8 @@ impl Verification<'_> {
         let wanted = self.wanted(&series, files)?;
         let video = series.video().zip(files.videos());
         let count = video.map_or(Ok(None), |(video, videos)| videos.count(video))?;
-        let memory = self.memory_beside(wanted.len())?;
+        let decoding = video.map_or(Ok(0), |(video, videos)| videos.memory(video))?;
+        let memory = self.memory_beside(wanted.len())?.beside_codecs(decoding, "")?;
         let (pool, limits) = (threads(self.limits.threads)?, Limits::memory(memory.bytes));
         observer.begin(Some(wanted.len()));
         let mut frames: Vec<Frame> = Vec::with_capacity(wanted.len());

@@ -11,7 +11,7 @@ use crate::diagnostic::{CHANNELS, EVERY, Result, SHUTTER};
 use crate::input::Input;
 use crate::job::QueueDepth;
 use crate::source::MemoryBudget;
-use crate::source::memory_budget::{area, human, read_bytes};
+use crate::source::memory_budget::{SMALL, area, human, read_bytes};
 use crate::target::{Sheet, Target};
 
 impl MemoryBudget {
@@ -168,10 +168,6 @@ impl MemoryBudget {
         QueueDepth::fitting(room, needs.in_sequence(), (wanted(needs.samples.files), written))
     }
 }
-
-/// Memory from which budgets hold for the program and all its threads, too. Smaller ones hold for pictures: nobody means that the program
-/// itself is too large.
-pub(super) const SMALL: u64 = 64 << 20;
 
 /// Says how large the largest picture is.
 fn largest_has(size: Option<(usize, usize)>) -> String {

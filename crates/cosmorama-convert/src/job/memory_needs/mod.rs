@@ -4,7 +4,7 @@
 //! them holds, and not the sum of all.
 
 mod checks;
-mod coders;
+mod codecs;
 mod footprint;
 mod rings;
 

@@ -10,7 +10,6 @@ use cosmorama_io::{Header, ImageFile, IoError, Limits};
 use cosmorama_spec::{FrameRate, Spec};
 
 use super::{Coming, DamagedFrames, FrameDamage, FrameName, PictureSink, RawFiles, VideoPlan};
-use crate::colour::Light;
 use crate::diagnostic::{Diagnostic, Result};
 
 /// Videos among the inputs: none.
@@ -114,7 +113,7 @@ impl MadeVideos {
         false
     }
 
-    pub(crate) fn memory(_: &Path, _: Option<&str>, _: (usize, usize), _: &Light) -> u64 {
+    pub(crate) fn memory(_: &Path, _: (usize, usize), _: &VideoPlan) -> u64 {
         0
     }
 

@@ -2,9 +2,19 @@
 
 use cosmorama_video::{Announced, AnnouncedBy, CutShort, Damaged, Ffmpeg, VideoError, VideoInfo};
 
+/// Returns the number of frames that a file gives. Where it announces none, as bare streams do, that is noted, so that its reader misses
+/// those that are lost.
+pub(super) fn count(ffmpeg: &Ffmpeg, info: &mut VideoInfo, damaged: Damaged) -> Result<u64, VideoError> {
+    let frames = counted(ffmpeg, info, damaged)?;
+    if info.cut.is_none() {
+        info.announced.get_or_insert(Announced { frames, by: AnnouncedBy::Count });
+    }
+    Ok(frames)
+}
+
 /// Returns the number of frames that a file announces. Where only its duration tells, which may be rounded, its coded frames are
 /// counted; of a file that is cut they would be too few, and nobody would miss the others. Those that were lost between others count.
-pub(super) fn count(ffmpeg: &Ffmpeg, info: &VideoInfo, damaged: Damaged) -> Result<u64, VideoError> {
+fn counted(ffmpeg: &Ffmpeg, info: &VideoInfo, damaged: Damaged) -> Result<u64, VideoError> {
     let announced = match info.announced {
         Some(Announced { frames, by: AnnouncedBy::Count }) if !hides_frames(info, frames) => return Ok(frames),
         Some(Announced { frames, .. }) => Some(frames),

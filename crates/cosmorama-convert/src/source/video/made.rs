@@ -16,7 +16,6 @@ use cosmorama_video::{
 
 use super::raw::{RawWriter, aside, foreign};
 use super::{DamagedFrames, PictureSink, RawKind, VideoPlan, Videos, described};
-use crate::colour::Light;
 use crate::diagnostic::{Code, ConvertError, Diagnostic, FPS, FRAMES, Result, SIZE, VIDEO_CODEC, usage, usage_as};
 
 /// Videos that a conversion makes.
@@ -99,10 +98,12 @@ impl MadeVideos {
     }
 
     /// Returns the bytes of memory that ffmpeg holds to make a video of frames of a size, about.
-    pub(crate) fn memory(path: &Path, codec: Option<&str>, size: (usize, usize), light: &Light) -> u64 {
-        let is_deep = light.depth != Depth::Eight;
-        let codec = codec_of(path, codec, is_deep).filter(|_| RawKind::of(path).is_none());
-        codec.map_or(0, |codec| codec.encoding_bytes(size, is_deep, light.channels.has_alpha()))
+    pub(crate) fn memory(path: &Path, size: (usize, usize), plan: &VideoPlan) -> u64 {
+        let is_deep = plan.depth != Depth::Eight || ColourTags::of(&plan.primaries, &plan.transfer).is_hdr();
+        let holds =
+            |codec: &Codec| Container::of_path(path).is_some_and(|container| container.codecs().contains(codec));
+        let codec = codec_of(path, plan.settings.codec.as_deref(), is_deep).filter(holds);
+        codec.map_or(0, |codec| codec.encoding_bytes(size, is_deep, plan.channels.has_alpha()))
     }
 
     /// Returns the bytes of a video in hundredths of those of its samples, about: those of rendered pictures with some noise.

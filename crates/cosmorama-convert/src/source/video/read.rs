@@ -10,8 +10,8 @@ use cosmorama_io::pending::Unfinished;
 use cosmorama_io::{Header, ImageFile, IoError, Limits};
 use cosmorama_spec::{FrameRate, Spec};
 use cosmorama_video::{
-    Announced, AnnouncedBy, CodedOrder, CutShort, Damaged, Fault, Ffmpeg, FrameCondition, PairedReader, ReadOptions,
-    SecondHalf, Timeline, VideoError, VideoFrame, VideoInfo, VideoReader,
+    CodedOrder, CutShort, Damaged, Fault, Ffmpeg, FrameCondition, PairedReader, ReadOptions, SecondHalf, Timeline,
+    VideoError, VideoFrame, VideoInfo, VideoReader,
 };
 use thiserror::Error;
 
@@ -241,7 +241,7 @@ impl Videos {
         let (faults, beside) = (&state.damage.faults, &state.damage.beside);
         let further = state.has_more.then(|| more_than(announced));
         // Frames that a cut file lacks may be counted by nobody.
-        let cut = source.cut().filter(|_| faults.is_empty()).map(|CutShort { expected, found }| {
+        let cut = source.untold_cut(faults).map(|CutShort { expected, found }| {
             VideoError::Cut { path: video.to_owned(), expected, found, is_described: true }.to_string()
         });
         let further = further.or(cut);
@@ -305,16 +305,16 @@ impl Videos {
 impl Source {
     fn film(ffmpeg: Arc<Ffmpeg>, video: &Path, damaged: DamagedFrames) -> Result<Self, VideoError> {
         let mut info = ffmpeg.probe(video)?;
-        let half = ffmpeg.second_half(&info)?;
+        let mut half = ffmpeg.second_half(&info)?;
         // Several threads would not always make the same of what takes after damaged frames, nor tell of the same frames.
         let (damaged, threads) = match damaged {
             DamagedFrames::Error => (Damaged::Error, 0),
             DamagedFrames::Hold => (Damaged::Hold, 1),
             DamagedFrames::Skip => (Damaged::Skip, 1),
         };
-        let (mut frames, mut header) = (count(&ffmpeg, &info, damaged)?, described::header(&info));
-        if let Some(half) = &half {
-            let others = count(&ffmpeg, &half.info, damaged)?;
+        let (mut frames, mut header) = (count(&ffmpeg, &mut info, damaged)?, described::header(&info));
+        if let Some(half) = &mut half {
+            let others = count(&ffmpeg, &mut half.info, damaged)?;
             if others != frames {
                 let (all, both) = (frames.max(others), frames.min(others));
                 header.metadata.notes.push(format!(
@@ -326,8 +326,6 @@ impl Source {
             // It is no stream beside the video.
             info.others.retain(|other| other.index != half.info.stream);
         }
-        // Bare streams announce nothing; what was counted, their reader misses.
-        info.announced = info.announced.or(Some(Announced { frames, by: AnnouncedBy::Count }));
         let content = Content::Film { ffmpeg, info: Box::new(info), half: half.map(Box::new) };
         Ok(Self::new(video, (content, header), (damaged, threads), frames))
     }
@@ -342,10 +340,10 @@ impl Source {
         Self { name: video.to_owned(), content, header, damaged, threads, count, orders, marks, state }
     }
 
-    /// Returns how a video's file is cut, if it is.
-    fn cut(&self) -> Option<CutShort> {
+    /// Returns how a video's file is cut, unless its faults tell of all that it lacks.
+    fn untold_cut(&self, faults: &Faults) -> Option<CutShort> {
         let Content::Film { info, .. } = &self.content else { return None };
-        info.cut
+        info.cut.filter(|_| faults.is_empty() || info.announced.is_none())
     }
 
     fn raw(kind: RawKind, video: &Path, files: &Arc<dyn RawFiles>) -> Result<Self, IoError> {
@@ -484,7 +482,7 @@ impl Source {
         let mut state = self.state();
         let further = state.has_more.then(|| more_than(self.count));
         state.close();
-        let cut = self.cut().filter(|_| state.damage.faults.is_empty() && self.damaged != Damaged::Error);
+        let cut = self.untold_cut(&state.damage.faults).filter(|_| self.damaged != Damaged::Error);
         let cut = cut.filter(|_| further.is_none()).map(|cut| may_lack(cut, state.asked.len()));
         let (damage, count) = (&state.damage, |faults: &Faults| self.count_traces(&state, faults));
         let of_faults = damage.complaint((self.damaged, makes_film), count);
