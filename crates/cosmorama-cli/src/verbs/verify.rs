@@ -35,8 +35,11 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Result<ExitCode> {
     let mut watch = Watch::new(console, args.progress);
     let verified = verification.run(Arc::new(Disk), &mut watch)?;
     watch.finish();
-    let text =
-        if args.json { serde_json::to_string_pretty(&json_of(args, &verified))? + "\n" } else { text_of(&verified) };
+    let text = if args.json {
+        serde_json::to_string_pretty(&json_of(args, &verified))? + "\n"
+    } else {
+        text_of(args, &verified)
+    };
     console.print(&text)?;
     if let (Some(path), Some(format), Some(sheet)) = (&args.sheet, format, &verified.sheet) {
         write_picture((path, format), sheet, console)?;
@@ -70,7 +73,7 @@ fn prepare_sheet(sheet: &Path, args: &VerifyArgs, console: &Console) -> Result<O
 }
 
 /// Returns the list of faults, a line for each kind or damaged frame.
-fn text_of(verified: &Verified) -> String {
+fn text_of(args: &VerifyArgs, verified: &Verified) -> String {
     let mut lines: Vec<(String, Vec<u64>)> = Vec::new();
     for of in &verified.faults {
         for fault in &of.faults {
@@ -83,9 +86,11 @@ fn text_of(verified: &Verified) -> String {
     }
     let line = |(told, frames): (String, Vec<u64>)| format!("{told}: {}\n", FrameList::new(frames));
     let list: String = lines.into_iter().map(line).collect();
+    // Some codecs have no sums by which it could know.
+    let so_far = if is_video(Path::new(&args.pattern)) { ", as far as its decoder tells" } else { "" };
     match (verified.faults.len(), verified.frames) {
-        (0, 1) => "1 frame is whole\n".to_owned(),
-        (0, frames) => format!("{frames} frames are whole and alike\n"),
+        (0, 1) => format!("1 frame is whole{so_far}\n"),
+        (0, frames) => format!("{frames} frames are whole and alike{so_far}\n"),
         (1, 1) => format!("{list}the only frame has faults: {}\n", verified.faulty()),
         (1, frames) => format!("{list}1 of {frames} frames has faults: {}\n", verified.faulty()),
         (faulty, frames) => format!("{list}{faulty} of {frames} frames have faults: {}\n", verified.faulty()),

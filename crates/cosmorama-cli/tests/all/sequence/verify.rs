@@ -203,9 +203,12 @@ fn frames_of_a_video_are_verified() {
         &told,
         &["black: 2\n", "equal to the frame before: 5\n", "far from both neighbours: 2,10\n", "faults: 2,5,10\n"],
     );
-    assert_eq!(verify(&["film.mkv", "--frames", "6-9"]), (Some(0), "4 frames are whole and alike\n".to_owned()));
+    assert_eq!(
+        verify(&["film.mkv", "--frames", "6-9"]),
+        (Some(0), "4 frames are whole and alike, as far as its decoder tells\n".to_owned())
+    );
     let timed = verify(&["film.mkv", "--frames", "00:00:00.24-00:00:00.40"]);
-    assert_eq!(timed, (Some(0), "4 frames are whole and alike\n".to_owned()));
+    assert_eq!(timed, (Some(0), "4 frames are whole and alike, as far as its decoder tells\n".to_owned()));
     let (code, told) = verify(&["in_##.png", "--frames", "00:00:00-00:00:01"]);
     assert!(code == Some(2) && told.contains("in_##.png is no video, whose frames have times"), "{told}");
     let (code, told) = verify(&["film.mkv", "--frames", "6-8,12-13"]);
