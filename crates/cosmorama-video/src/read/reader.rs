@@ -421,7 +421,7 @@ impl VideoReader {
 
     /// Tells of frames behind a place of an AVI that ffmpeg does not count, where it begins to read before that place.
     fn tell_of_uncounted(&mut self, seek: Option<f64>) -> Result<(), VideoError> {
-        /// Seconds that ffmpeg seeks farther back for codecs that keep frames back, and more.
+        /// Seconds that ffmpeg seeks farther back for codecs that keep frames back (3/23, `fftools/ffmpeg_opt.c`), and more.
         const BACK: f64 = 0.2;
         let ticks = |seek: f64| (seek + self.info.file_start - BACK) / self.info.time_base.to_f64();
         let from = seek.map_or(0, |seek| ticks(seek) as i64);

@@ -319,7 +319,9 @@ fn answers_about_each_container_are_refused_or_understood() {
     std::fs::write(folder.path().join("frames"), frames).unwrap();
     let packets = "N/A,2,___\n3,3,K__\n5,4,__D\nN/A,6,___\n4,4,K__\n";
     let words = ["N/A", ",", "\n", "K", "D", "-", "9223372036854775807"];
-    for (seed, container) in (0..).zip(["avi", "mpegts", "mpeg", "h264", "flv", "asf", "mov,mp4"]) {
+    let containers = ["avi", "mpegts", "mpeg", "h264", "flv", "asf", "mov,mp4"];
+    let count = Mutants::count(420) / containers.len();
+    for (seed, container) in (0..).zip(containers) {
         let streams = streams.replace("matroska,webm", container).replace("\"start_pts\": 0", "\"start_pts\": 3");
         std::fs::write(folder.path().join("streams"), streams.replace("hevc", "mpeg4")).unwrap();
         let read = |packets: &[u8], film: &[u8]| {
@@ -332,9 +334,10 @@ fn answers_about_each_container_are_refused_or_understood() {
         };
         let film = if container == "avi" { avi() } else { b"frames".to_vec() };
         assert!(read(packets.as_bytes(), &film), "{container}");
-        let count = Mutants::count(60);
         Mutants::new(packets.as_bytes(), &words, seed).take(count).for_each(|packets| _ = read(&packets, &film));
         let words = ["idx1", "movi", "00dc", "RIFF", "LIST"];
+        // Of others, the file itself is tried elsewhere.
+        let count = if container == "avi" { count } else { 0 };
         Mutants::new(&film, &words, seed).take(count).for_each(|film| _ = read(packets.as_bytes(), &film));
     }
 }

@@ -48,6 +48,8 @@ fn codecs_of_films_take_their_part_of_the_memory() {
     assert_says(&told, &["ffmpeg, which reads and makes films, needs about", "ProRes in .mov holds less"]);
     let (code, told) = run("fast.mkv", &["--video-codec", "h264", "--video-args", "-preset ultrafast"]);
     assert_eq!(code, Some(0), "{told}");
+    // Arguments that do not decide on it change nothing.
+    assert_eq!(run("film.mp4", &["--video-args", "-crf 20"]).0, Some(1));
     // Of two films in layers, each has a decoder, whose memory neither layer has.
     super::films::film(&bench, "film.mkv", 3);
     let args = ["convert", "film.mkv", "out_#.png", "--from", "equirect", "--to", "fulldome", "--size", "64"];
@@ -55,6 +57,11 @@ fn codecs_of_films_take_their_part_of_the_memory() {
         ["--backdrop", "film.mkv", "--backdrop-from", "equirect", "--memory", "66M", "--threads", "2", "--json"];
     let report: Value = serde_json::from_str(&bench.succeed(&[&args[..], &layers].concat())).unwrap();
     assert!(report["codec_memory_bytes"].as_u64().unwrap() > 24 << 20, "{report}");
+    // Of a film that is verified, its decoder.
+    let source = "testsrc2=size=2048x1024:rate=25,trim=end_frame=2";
+    ffmpeg(&bench, &["-f", "lavfi", "-i", source, "-c:v", "libx264", "-preset", "ultrafast", "large.mp4"]);
+    let told = bench.fail(1, &["verify", "large.mp4", "--memory", "66M"]);
+    assert_says(&told, &["of memory with ffmpeg's codecs, which hold about"]);
 }
 
 /// The estimate that is told, and the most memory that was held, in MiB.

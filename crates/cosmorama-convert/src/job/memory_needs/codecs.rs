@@ -34,7 +34,10 @@ impl MemoryBudget {
             None => output.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("mov")),
         };
         let less = if is_prores { "" } else { "; ProRes in .mov holds less" };
-        let why = || format!("; encoding is {} of it{less}, and with {VIDEO_ARGS} it is not counted", human(encoding));
+        let why = || {
+            let encoding = human(encoding);
+            format!("; encoding is {encoding} of it{less}, and with {VIDEO_ARGS} '-preset …' it is not counted")
+        };
         let why = if encoding > 0 { why() } else { String::new() };
         self.beside_codecs(decoding.saturating_add(encoding), &why)
     }
@@ -51,9 +54,12 @@ fn decoding_bytes(input: &Input, files: &dyn Files) -> Result<u64> {
     Ok(bytes)
 }
 
-/// Returns the bytes that encoders of the films that are made hold, about. Of those with arguments of their own, nothing is known.
+/// Returns the bytes that encoders of the films that are made hold, about. Where arguments decide on that, nothing is known.
 fn encoding_bytes(settings: &Conversion, input: &Input, target: &Target) -> u64 {
-    if !target.format.is_video() || !settings.video.arguments.is_empty() {
+    /// Parts of the names of arguments that decide how many frames an encoder holds, or which one it is.
+    const DECIDING: [&str; 7] = ["preset", "tune", "lookahead", "params", "threads", "lag", "c:v"];
+    let decides = |argument: &String| argument.starts_with('-') && DECIDING.iter().any(|part| argument.contains(part));
+    if !target.format.is_video() || settings.video.arguments.iter().any(decides) {
         return 0;
     }
     // What is wrong with the light is told later, with all that decides it.
