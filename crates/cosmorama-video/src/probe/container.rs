@@ -26,6 +26,14 @@ pub(super) fn begins_anywhere(container: &str) -> bool {
 }
 
 /// Returns whether a stream is bare: no frame has a time, and where it tells no rate, ffprobe takes 25 frames a second.
-pub(crate) fn is_bare(container: &str) -> bool {
-    ["h264", "hevc", "obu"].contains(&container)
+pub(super) fn is_bare(container: &str, codec: &str) -> bool {
+    ["h264", "hevc", "obu"].contains(&container) || is_bare_mpeg1(container, codec)
 }
+
+/// Returns whether a stream is bare MPEG-1, of whose first frames ffmpeg guesses times with holes between.
+pub(super) fn is_bare_mpeg1(container: &str, codec: &str) -> bool {
+    container == "mpegvideo" && codec == MPEG1
+}
+
+/// Name of the codec MPEG-1.
+pub(super) const MPEG1: &str = "mpeg1video";

@@ -5,10 +5,10 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use super::container::{ASF, AVI, FLV, begins_anywhere, is_bare, is_boxes, is_matroska};
+use super::container::{ASF, AVI, FLV, begins_anywhere, is_bare_mpeg1, is_boxes, is_matroska};
 use super::first_frame::FirstFrame;
 use super::stream::{Stream, delay, ratio, text};
-use super::timeline::{CodedStream, PATIENCE};
+use super::timeline::{Beginning, CodedStream, PATIENCE};
 use super::{Announced, AnnouncedBy, CutShort, OtherStream, Places, StreamKind, Timeline, VideoInfo, structure};
 use crate::ffmpeg::Said;
 use crate::{Ffmpeg, SpatialTags, VideoError};
@@ -45,8 +45,10 @@ impl Ffmpeg {
         let number = streams(&document).iter().position(is_chosen).ok_or_else(no_video)?;
         let container = text(&document["format"], "format_name").unwrap_or_default().to_owned();
         let container = container.as_str();
-        if !is_boxes(container) && (cut.is_some() || !is_matroska(container)) {
-            self.find_start(path, container, &mut document["streams"][number]);
+        let tells_start = is_boxes(container) || (is_matroska(container) && cut.is_none());
+        let beginning = self.beginning_of(path, container, &document["streams"][number], tells_start);
+        if let Some(Beginning { start, .. }) = beginning {
+            begin_at(&mut document["streams"][number], start, container);
         }
         let streams = streams(&document);
         let unknown = |error| match cut {
@@ -60,6 +62,7 @@ impl Ffmpeg {
         let others = streams.iter().enumerate().filter(|(index, _)| *index != number);
         let others = others.map(|(_, stream)| other(stream)).collect::<Vec<_>>();
         let mut info = stream.into_info(path, container);
+        info.begin(beginning);
         info.chapters = document["chapters"].as_array().map_or(0, Vec::len);
         info.file_start = match container {
             // Its sound begins with the first frame, whatever the times of these.
@@ -75,29 +78,27 @@ impl Ffmpeg {
         info.duration = info.duration.or_else(|| Some(alone?.parse::<f64>().ok()? - before));
         info.duration = info.duration.filter(|_| container != ASF || others.is_empty());
         info.others = others;
+        if info.is_bare() {
+            // It is guessed from the number of bytes.
+            info.duration = None;
+        }
         info.announced = info.announced.or_else(|| announced_by_duration(&info));
         self.complete(&mut info)?;
         Ok(info)
     }
 
-    /// Replaces the start of a stream by that of its first frame. Of a cut Matroska, ffprobe guesses it, or says none, where few are left; of
-    /// AVI and WMV it tells when that frame is decoded; of streams that begin between frames, the time of another. What cannot be listed has
-    /// no better one.
-    fn find_start(&self, path: &Path, container: &str, stream: &mut Value) {
-        let index = stream["index"].as_u64().and_then(|index| u32::try_from(index).ok());
-        let (Some(index), Some(time_base)) = (index, ratio(stream, "time_base")) else { return };
-        let codec = text(stream, "codec_name").unwrap_or_default();
-        let coded = CodedStream { index, codec, delay: delay(stream) };
-        if let Ok(Some(first)) = self.first_time(path, coded, container) {
-            let time = first as f64 * time_base.to_f64();
-            let seconds = |stream: &Value, name| text(stream, name)?.parse::<f64>().ok();
-            if let Some(duration) = seconds(stream, "duration").filter(|_| container != AVI) {
-                let end = seconds(stream, "start_time").unwrap_or(0.0) + duration;
-                stream["duration"] = Value::from((end - time).to_string());
-            }
-            stream["start_pts"] = Value::from(first);
-            stream["start_time"] = Value::from(time.to_string());
+    /// Finds where a stream begins, if its container does not tell it, or frames before that are left out. What cannot be listed has nothing
+    /// better than ffprobe's word.
+    fn beginning_of(&self, path: &Path, container: &str, stream: &Value, tells_start: bool) -> Option<Beginning> {
+        let delay = delay(stream);
+        if tells_start && delay == 0 {
+            return None;
         }
+        let index = stream["index"].as_u64().and_then(|index| u32::try_from(index).ok())?;
+        let codec = text(stream, "codec_name").unwrap_or_default();
+        let coded = CodedStream { index, container, codec, delay };
+        let found = self.beginning(path, coded).ok().flatten();
+        found.filter(|beginning| beginning.leading > 0 || !tells_start)
     }
 
     /// Adds what only the file's boxes, or its first frame, tell.
@@ -127,7 +128,7 @@ impl Ffmpeg {
         if begins_anywhere(&info.container) {
             info.early = self.early_frames(info)?;
         }
-        if is_bare(&info.container) {
+        if info.is_bare() {
             info.notes.push(format!(
                 "it is a bare stream, of which no frame has a time; {} frames a second are taken; if it has others, give it them by ffmpeg \
                  -r RATE -i FILE -c copy FILE.mp4",
@@ -149,17 +150,46 @@ impl Ffmpeg {
             return Ok(());
         }
         let places = Places::read(&info.path, info.stream);
-        if !info.is_variable && places.empty_before(info.start) < late {
+        if !info.is_variable && places.empty_before(info.start) + info.leading < late {
             return Ok(());
         }
         let times = self.packet_times(info)?;
         let even = Timeline::Even { start: info.start, time_base: info.time_base, rate: info.rate };
         let shown = match times.last() {
             Some(last) if !info.is_variable => even.frame(*last) + 1,
-            _ => places.filled().max(times.len() as u64),
+            _ => places.filled().saturating_sub(info.leading).max(times.len() as u64),
         };
         info.announced = info.announced.map(|told| Announced { frames: told.frames.min(shown), ..told });
         Ok(())
+    }
+}
+
+/// Replaces the start of a stream by that of its first frame. Of a cut Matroska, ffprobe guesses it, or says none, where few are left; of
+/// AVI and WMV it tells when that frame is decoded; of streams that begin between frames, the time of another.
+fn begin_at(stream: &mut Value, first: i64, container: &str) {
+    let Some(time_base) = ratio(stream, "time_base") else { return };
+    let time = first as f64 * time_base.to_f64();
+    let seconds = |stream: &Value, name| text(stream, name)?.parse::<f64>().ok();
+    if let Some(duration) = seconds(stream, "duration").filter(|_| container != AVI) {
+        let end = seconds(stream, "start_time").unwrap_or(0.0) + duration;
+        stream["duration"] = Value::from((end - time).to_string());
+    }
+    stream["start_pts"] = Value::from(first);
+    stream["start_time"] = Value::from(time.to_string());
+}
+
+impl VideoInfo {
+    /// Notes where the video begins.
+    fn begin(&mut self, beginning: Option<Beginning>) {
+        if is_bare_mpeg1(&self.container, &self.codec) {
+            // Of a stream without a mean rate, ffmpeg counts from 0, and not from before the frames that are kept back.
+            self.start = self.rate.inverse().rescale(self.delay as i64, self.time_base);
+        }
+        let Some(Beginning { leading, left_out, .. }) = beginning.filter(|beginning| beginning.leading > 0) else {
+            return;
+        };
+        (self.leading, self.left_out) = (leading, left_out);
+        self.announced = self.announced.map(|told| Announced { frames: told.frames.saturating_sub(leading), ..told });
     }
 }
 

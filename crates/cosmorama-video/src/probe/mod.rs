@@ -13,7 +13,8 @@ mod turn;
 use std::path::PathBuf;
 
 pub(crate) use avi::{Places, Uncounted};
-pub(crate) use container::{AVI, is_bare, is_boxes};
+pub(crate) use container::{AVI, is_boxes};
+use timeline::CodedStream;
 pub use timeline::Timeline;
 pub(crate) use timeline::{CodedFrame, shown_times};
 pub use turn::Turn;
@@ -76,12 +77,16 @@ pub struct VideoInfo {
     pub timecode: Option<String>,
     /// Names and values of the file's own metadata, such as its title.
     pub metadata: Vec<(String, String)>,
+    /// Frames at the beginning that are left out: they took after others, which were cut off.
+    pub left_out: u64,
     /// Bytes that the file lacks by its own account.
     pub cut: Option<CutShort>,
     /// Seconds at which the file begins, from which ffmpeg counts when it seeks; in AVI, those of the first frame.
     pub(crate) file_start: f64,
     /// Frames at the beginning that take after others before them, which were cut off; decoders make them up, or give none.
     pub(crate) early: u64,
+    /// Coded frames behind the first key frame that come before the first frame, and took after others that were cut off.
+    pub(crate) leading: u64,
     /// Frames that a decoder keeps back, to give them in the order in which they are shown.
     pub(crate) delay: u64,
     /// Statements about the file that a user should hear, such as "no matrix is said; taken for BT.709"; a sentence each.
@@ -101,6 +106,16 @@ impl VideoInfo {
         let (width, height) = self.coded_size;
         let usual = if width > 1024 || height > 576 { 1 } else { 6 };
         self.colour.matrix.unwrap_or(if self.is_rgb { 0 } else { usual })
+    }
+
+    /// Returns whether the video is a bare stream, of which no frame has a time.
+    pub(crate) fn is_bare(&self) -> bool {
+        container::is_bare(&self.container, &self.codec)
+    }
+
+    /// Returns the options of ffmpeg and ffprobe to read it.
+    pub(crate) fn input_options(&self) -> &'static [&'static str] {
+        CodedStream::of(self).input_options()
     }
 
     /// Returns the range by which pictures are read: the file's, or else full for RGB and the formats of JPEG, and narrow for

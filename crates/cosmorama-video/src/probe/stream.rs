@@ -113,6 +113,8 @@ impl<'a> Stream<'a> {
             cut: None,
             file_start: 0.0,
             early: 0,
+            leading: 0,
+            left_out: 0,
             delay: delay(value),
             notes: Vec::new(),
         }

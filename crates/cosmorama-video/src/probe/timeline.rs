@@ -2,7 +2,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use super::Places;
-use super::container::{AVI, begins_anywhere};
+use super::container::{AVI, MPEG1, begins_anywhere, is_bare_mpeg1, is_matroska};
 use crate::{Ffmpeg, Ratio, VideoError, VideoInfo};
 
 /// Times of a video's frames.
@@ -140,7 +140,8 @@ impl Ffmpeg {
     pub(super) fn begins_evenly(&self, info: &VideoInfo) -> Result<bool, VideoError> {
         /// Frames at the end of those that are read, or that are left of a cut file, before which others may come.
         const UNSURE: usize = 20;
-        let times = self.first_times(&info.path, CodedStream::of(info))?;
+        let stream = CodedStream::of(info);
+        let times = stream.times_of(info, &self.packets(&info.path, stream, &FIRST)?);
         let is_whole = times.len() < 100 && info.cut.is_none();
         let sure = times.len().saturating_sub(if is_whole { 0 } else { UNSURE });
         let even = Timeline::Even { start: info.start, time_base: info.time_base, rate: info.rate };
@@ -156,43 +157,45 @@ impl Ffmpeg {
             let even = Timeline::Even { start: info.start, time_base: info.time_base, rate: info.rate };
             return Ok((0..packets.len() as u64).filter_map(|frame| even.time(frame)).collect());
         }
-        let mut times = stream.shown_times(&packets);
-        if begins_anywhere(&info.container) {
-            // Of those before the first key frame, some are lost without a word where decoding begins with it.
-            times.retain(|time| *time >= info.start);
-        }
-        Ok(times)
+        Ok(stream.times_of(info, &packets))
     }
 
-    /// Reads the times of the first coded frames that are shown, up to 120, in their order.
-    pub(super) fn first_times(&self, path: &Path, stream: CodedStream) -> Result<Vec<i64>, VideoError> {
-        Ok(stream.shown_times(&self.packets(path, stream, &FIRST)?))
-    }
-
-    /// Reads the time of the first frame. Where a stream that may begin anywhere begins with a key frame, frames that are decoded behind that
-    /// and shown before it may take after others that were cut off: the decoder tells.
-    pub(super) fn first_time(
-        &self,
-        path: &Path,
-        stream: CodedStream,
-        container: &str,
-    ) -> Result<Option<i64>, VideoError> {
+    /// Finds where a stream begins; `None` where no frame of it has a time. Frames that are decoded behind the first key frame and shown before
+    /// it may take after others that were cut off: the decoder tells.
+    pub(super) fn beginning(&self, path: &Path, stream: CodedStream) -> Result<Option<Beginning>, VideoError> {
         let packets = self.packets(path, stream, &FIRST)?;
-        let first = stream.shown_times(&packets).first().copied();
-        if !begins_anywhere(container) || !packets.first().is_some_and(|packet| packet.is_key) {
-            return Ok(first);
+        let shown = stream.shown_times(&packets);
+        let Some(first) = shown.first().copied() else { return Ok(None) };
+        let whole = Beginning { start: first, leading: 0, left_out: 0 };
+        let Some(key) = packets.first().filter(|packet| packet.is_key && stream.delay > 0) else {
+            return Ok(Some(whole));
+        };
+        if !stream.tells_times(&packets) {
+            // A later frame would be the first where the key frame is damaged.
+            let decoded = self.first_decoded(path, stream)?.filter(|decoded| decoded.byte == key.byte);
+            let start = decoded.map_or(first, |decoded| decoded.time);
+            return Ok(Some(Beginning::after(&shown, &shown, start)));
         }
-        let key = timed(&packets).first().filter(|_| stream.tells_times(&packets)).map(|key| key.time);
-        Ok(if first < key { self.first_decoded(path, stream)?.or(key) } else { first })
+        let coded: Vec<i64> = timed(&packets).iter().map(|frame| frame.time).collect();
+        let untimed = if is_matroska(stream.container) { untimed_behind_first(&packets) } else { 0 };
+        let Some(key) = coded.first().filter(|key| untimed > 0 || coded.iter().any(|time| time < key)) else {
+            return Ok(Some(whole));
+        };
+        let latest = shown.iter().copied().find(|time| time >= key).unwrap_or(first);
+        let decoded = self.first_decoded(path, stream)?;
+        let start = decoded.map_or(latest, |decoded| decoded.time.clamp(first, latest));
+        let Beginning { leading, left_out, .. } = Beginning::after(&coded, &shown, start);
+        Ok(Some(Beginning { start, leading: leading + untimed, left_out: left_out + untimed }))
     }
 
-    /// Decodes the first frames, and returns the time of the first that is shown.
-    fn first_decoded(&self, path: &Path, stream: CodedStream) -> Result<Option<i64>, VideoError> {
+    /// Decodes the first frames, and returns the first that is shown.
+    fn first_decoded(&self, path: &Path, stream: CodedStream) -> Result<Option<FirstDecoded>, VideoError> {
         let index = stream.index.to_string();
-        let entries = ["-select_streams", &index, "-show_entries", "frame=best_effort_timestamp", "-of", "csv=p=0"];
+        let entries =
+            ["-select_streams", &index, "-show_entries", "frame=best_effort_timestamp,pkt_pos", "-of", "csv=p=0"];
         let mut first = None;
         self.ffprobe_lines(path, &[&entries[..], &["-read_intervals", "%+#20"]].concat(), |line| {
-            first = first.or_else(|| line.split(',').next()?.trim().parse().ok());
+            first = first.or_else(|| FirstDecoded::of_line(line));
             Ok(())
         })?;
         Ok(first)
@@ -224,13 +227,15 @@ impl Ffmpeg {
         if info.container == AVI && is_mpeg(&info.codec) {
             insert_lost(&mut packets, Places::compared(&info.path, info.stream, u64::MAX).resized());
         }
-        Ok(if stream.tells_times(&packets) { timed(&packets) } else { Vec::new() })
+        let mut coded = if stream.tells_times(&packets) { timed(&packets) } else { Vec::new() };
+        coded.retain(|frame| is_of_video(info, frame.time));
+        Ok(coded)
     }
 
     fn packets(&self, path: &Path, stream: CodedStream, part: &[&str]) -> Result<Vec<Packet>, VideoError> {
         let index = stream.index.to_string();
-        let entries = ["-select_streams", &index, "-show_entries", "packet=pts,dts,flags", "-of", "csv=p=0"];
-        let arguments = [&entries, part].concat();
+        let entries = ["-select_streams", &index, "-show_entries", "packet=pts,dts,pos,flags", "-of", "csv=p=0"];
+        let arguments = [stream.input_options(), &entries, part].concat();
         let mut packets = Vec::new();
         self.ffprobe_lines(path, &arguments, |line| {
             packets.push(Packet::of_line(line));
@@ -251,18 +256,78 @@ impl Ffmpeg {
     }
 }
 
+/// Beginning of a stream.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Beginning {
+    /// Time of the first frame.
+    pub(super) start: i64,
+    /// Coded frames that come before it, behind a key frame.
+    pub(super) leading: u64,
+    /// Those of them that are to be shown.
+    pub(super) left_out: u64,
+}
+
+impl Beginning {
+    /// Returns the beginning at a time, of coded frames that have times and of those that are to be shown.
+    fn after(coded: &[i64], shown: &[i64], start: i64) -> Self {
+        let before = |times: &[i64]| times.iter().filter(|time| **time < start).count() as u64;
+        Self { start, leading: before(coded), left_out: before(shown) }
+    }
+}
+
+/// First frame that a decoder gives.
+#[derive(Clone, Copy, Debug)]
+struct FirstDecoded {
+    time: i64,
+    /// Byte of the file at which its packet begins, if that is told.
+    byte: Option<u64>,
+}
+
+impl FirstDecoded {
+    fn of_line(line: &str) -> Option<Self> {
+        let mut fields = line.split(',').map(str::trim);
+        let time = fields.next()?.parse().ok()?;
+        Some(Self { time, byte: fields.next().and_then(|byte| byte.parse().ok()) })
+    }
+}
+
+/// Counts the packets without a time that follow the first: Matroska tells none before its beginning.
+fn untimed_behind_first(packets: &[Packet]) -> u64 {
+    let is_untimed = |packet: &&Packet| packet.shown.or(packet.decoded).is_none();
+    packets.iter().skip(1).take_while(is_untimed).count() as u64
+}
+
+/// Returns whether a coded frame is one of the video's. Of those before the first key frame, some are lost without a word where decoding
+/// begins with it.
+fn is_of_video(info: &VideoInfo, time: i64) -> bool {
+    time >= info.start || (info.leading == 0 && !begins_anywhere(&info.container))
+}
+
 /// Stream of a file.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CodedStream<'a> {
     pub(super) index: u32,
+    pub(super) container: &'a str,
     pub(super) codec: &'a str,
     /// Frames that its decoder keeps back.
     pub(super) delay: u64,
 }
 
 impl<'a> CodedStream<'a> {
-    fn of(info: &'a VideoInfo) -> Self {
-        Self { index: info.stream, codec: &info.codec, delay: info.delay }
+    pub(super) fn of(info: &'a VideoInfo) -> Self {
+        Self { index: info.stream, container: &info.container, codec: &info.codec, delay: info.delay }
+    }
+
+    /// Returns the options to read it: none of its times is to be guessed where that would be wrong.
+    pub(super) fn input_options(self) -> &'static [&'static str] {
+        if is_bare_mpeg1(self.container, self.codec) { &["-fflags", "+nofillin"] } else { &[] }
+    }
+
+    /// Returns the times of the video's frames that are shown, in their order.
+    fn times_of(self, info: &VideoInfo, packets: &[Packet]) -> Vec<i64> {
+        let mut times = self.shown_times(packets);
+        times.retain(|time| is_of_video(info, *time));
+        times
     }
 
     /// Returns whether a file tells when coded frames are shown, or it can be known.
@@ -292,8 +357,6 @@ fn is_mpeg(codec: &str) -> bool {
     [MPEG1, "mpeg2video", "mpeg4"].contains(&codec)
 }
 
-const MPEG1: &str = "mpeg1video";
-
 /// Inserts packets at the places that an AVI lost with all their bytes: that of the frame before them tells when theirs is shown.
 fn insert_lost(packets: &mut Vec<Packet>, places: &[i64]) {
     for place in places {
@@ -301,7 +364,7 @@ fn insert_lost(packets: &mut Vec<Packet>, places: &[i64]) {
         let Some(behind) = behind.filter(|behind| *behind > 0 && packets[*behind].decoded != Some(*place)) else {
             continue;
         };
-        let lost = Packet { shown: None, decoded: Some(*place), is_key: false, is_shown: true };
+        let lost = Packet { shown: None, decoded: Some(*place), byte: None, is_key: false, is_shown: true };
         packets.insert(behind, lost);
     }
 }
@@ -311,6 +374,8 @@ fn insert_lost(packets: &mut Vec<Packet>, places: &[i64]) {
 struct Packet {
     shown: Option<i64>,
     decoded: Option<i64>,
+    /// Byte of the file at which it begins, if that is told.
+    byte: Option<u64>,
     is_key: bool,
     is_shown: bool,
 }
@@ -320,9 +385,10 @@ impl Packet {
         let mut fields = line.split(',');
         let mut time = || fields.next().and_then(|time| time.parse().ok());
         let (shown, decoded) = (time(), time());
+        let byte = fields.next().and_then(|byte| byte.parse().ok());
         let flags = fields.next().unwrap_or_default();
         // D marks what is decoded for the sake of others alone.
-        Self { shown, decoded, is_key: flags.contains('K'), is_shown: !flags.contains('D') }
+        Self { shown, decoded, byte, is_key: flags.contains('K'), is_shown: !flags.contains('D') }
     }
 }
 
@@ -333,7 +399,7 @@ fn timed(packets: &[Packet]) -> Vec<CodedFrame> {
     let last_two = decoded.next().zip(decoded.next());
     let mut next = last_two.map(|(last, before)| last.saturating_add(last.saturating_sub(before)));
     let frame = |packet: &Packet| {
-        let Packet { shown, decoded, is_key, is_shown } = *packet;
+        let Packet { shown, decoded, is_key, is_shown, .. } = *packet;
         let time = shown.or(decoded.and(next));
         // B frames are shown when they are decoded.
         if decoded.is_some() && shown != decoded {
@@ -360,25 +426,37 @@ mod tests {
             timed(&packets).iter().map(|frame| frame.time).collect::<Vec<_>>()
         };
         // MPEG-4 with two B frames in AVI.
-        assert_eq!(times(&["N/A,0,K_", "N/A,1,__", "2,2,__", "3,3,__", "N/A,4,__", "5,5,__"]), [1, 4, 2, 3, 6, 5]);
-        assert_eq!(times(&["0,-1,K_", "3,0,__", "1,1,__", "2,2,_D"]), [0, 3, 1, 2]);
-        assert_eq!(times(&["N/A,0,K_", "N/A,1,__", "N/A,2,__"]), [1, 2, 3], "there may have been B frames");
+        assert_eq!(
+            times(&["N/A,0,N/A,K_", "N/A,1,N/A,__", "2,2,N/A,__", "3,3,N/A,__", "N/A,4,N/A,__", "5,5,N/A,__"]),
+            [1, 4, 2, 3, 6, 5]
+        );
+        assert_eq!(times(&["0,-1,N/A,K_", "3,0,N/A,__", "1,1,N/A,__", "2,2,N/A,_D"]), [0, 3, 1, 2]);
+        assert_eq!(times(&["N/A,0,N/A,K_", "N/A,1,N/A,__", "N/A,2,N/A,__"]), [1, 2, 3], "there may have been B frames");
         // MPEG's own streams tell most times.
-        let stream = ["1,0,K_", "4,1,__", "2,2,__", "3,3,__", "N/A,4,__", "5,5,__", "6,6,__", "10,7,__"];
+        let stream = [
+            "1,0,N/A,K_",
+            "4,1,N/A,__",
+            "2,2,N/A,__",
+            "3,3,N/A,__",
+            "N/A,4,N/A,__",
+            "5,5,N/A,__",
+            "6,6,N/A,__",
+            "10,7,N/A,__",
+        ];
         assert_eq!(times(&stream), [1, 4, 2, 3, 7, 5, 6, 10]);
-        assert_eq!(times(&["0,0,K_", "N/A,N/A,__", "2,2,__"]), [0, 2]);
+        assert_eq!(times(&["0,0,N/A,K_", "N/A,N/A,N/A,__", "2,2,N/A,__"]), [0, 2]);
     }
 
     #[test]
     fn frames_of_which_no_time_is_told_are_shown_in_order() {
-        let packets = ["N/A,0,K_", "N/A,2,__", "N/A,3,__", "N/A,5,__"].map(Packet::of_line);
-        let times = |codec, delay| CodedStream { index: 0, codec, delay }.shown_times(&packets);
+        let packets = ["N/A,0,N/A,K_", "N/A,2,N/A,__", "N/A,3,N/A,__", "N/A,5,N/A,__"].map(Packet::of_line);
+        let times = |codec, delay| CodedStream { index: 0, container: AVI, codec, delay }.shown_times(&packets);
         assert_eq!(times("h264", 0), [0, 2, 3, 5]);
         assert_eq!(times("h264", 2), [3, 5, 7, 9]);
         assert_eq!(times("h264", 16), [5, 7, 9, 11]);
-        assert_eq!(CodedStream { index: 0, codec: "h264", delay: 2 }.shown_times(&packets[..1]), [0]);
-        let unordered = ["N/A,5,K_", "N/A,3,__", "N/A,3,__", "N/A,4,_D"].map(Packet::of_line);
-        assert_eq!(CodedStream { index: 0, codec: "h264", delay: 1 }.shown_times(&unordered), [5, 7]);
+        assert_eq!(CodedStream { index: 0, container: AVI, codec: "h264", delay: 2 }.shown_times(&packets[..1]), [0]);
+        let unordered = ["N/A,5,N/A,K_", "N/A,3,N/A,__", "N/A,3,N/A,__", "N/A,4,N/A,_D"].map(Packet::of_line);
+        assert_eq!(CodedStream { index: 0, container: AVI, codec: "h264", delay: 1 }.shown_times(&unordered), [5, 7]);
     }
 
     #[test]

@@ -18,6 +18,20 @@ pub(super) struct Start {
     pub(super) seek: Option<f64>,
     /// Time in ticks of the first frame that is wanted.
     pub(super) from: Option<i64>,
+    /// What is heard before that frame.
+    pub(super) heard: HeardBefore,
+}
+
+/// What is heard before the first frame that is wanted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum HeardBefore {
+    /// Messages of that frame.
+    #[default]
+    Own,
+    /// Messages of frames that are decoded and dropped, or of those that lack others before the place where decoding began.
+    Others,
+    /// Complaints of frames that are left out, since they took after others that were cut off.
+    Leading,
 }
 
 /// Frames from whose number on seeking is worth it.
@@ -29,14 +43,20 @@ pub(super) const MARGIN: f64 = 0.5;
 impl Start {
     /// Returns where decoding begins for a frame to be the first.
     pub(super) fn at(first: u64, info: &VideoInfo, timeline: &Timeline) -> Self {
-        let Some(time) = (first > 0).then(|| timeline.time(first)).flatten() else { return Self::default() };
+        let is_partial = first > 0 || info.leading > 0;
+        let Some(time) = is_partial.then(|| timeline.time(first)).flatten() else { return Self::default() };
         let half = match timeline {
             Timeline::Even { time_base, rate, .. } => rate.inverse().rescale(1, *time_base) / 2,
-            Timeline::Listed { .. } => 0,
+            // ffmpeg guesses the times of some.
+            Timeline::Listed { .. } => {
+                let before = first.checked_sub(1).and_then(|before| timeline.time(before)).unwrap_or(time);
+                time.saturating_sub(before) / 2
+            }
         };
         let seconds = time as f64 * info.time_base.to_f64() - info.file_start - MARGIN;
         let seek = (first >= WORTH_SEEKING && seconds > 0.0).then_some(seconds);
-        Self { seek, from: Some(time - half) }
+        let heard = if first > 0 { HeardBefore::Others } else { HeardBefore::Leading };
+        Self { seek, from: Some(time.saturating_sub(half)), heard }
     }
 }
 
@@ -52,8 +72,8 @@ pub(super) struct Decoder {
     rows: Range<usize>,
     /// Whether a frame that is wanted has been told.
     has_begun: bool,
-    /// Whether frames before it are decoded and dropped.
-    is_partial: bool,
+    /// What is heard before it.
+    heard: HeardBefore,
     /// Whether something was heard before it: frames may be damaged, or lack others before the place where decoding began.
     is_doubtful: bool,
     /// Whether a message of an error is about the frame that comes next, which is painted over and given all the same.
@@ -112,7 +132,7 @@ impl Decoder {
         if let Some(seconds) = start.seek {
             command.args(["-noaccurate_seek", "-ss", &format!("{seconds:.6}")]);
         }
-        command.arg("-i").arg(url(&info.path)).args(["-map", &format!("0:{}", info.stream)]);
+        command.args(info.input_options()).arg("-i").arg(url(&info.path)).args(["-map", &format!("0:{}", info.stream)]);
         command.args(["-vf", &chain(info, (raw, &rows), start.from)?]).args(ffmpeg.every_frame_once());
         command.args(["-f", "rawvideo", "-c:v", "rawvideo", "-pix_fmt", &raw.name(), "pipe:1"]);
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -127,7 +147,7 @@ impl Decoder {
             size: info.size(),
             rows,
             has_begun: false,
-            is_partial: start.from.is_some(),
+            heard: start.heard,
             is_doubtful: false,
             is_painted,
         })
@@ -137,13 +157,16 @@ impl Decoder {
     pub(super) fn next(&mut self, info: &VideoInfo, pool: &FramePool) -> Result<Next, VideoError> {
         let Some(image) = self.image(info, pool)? else { return self.end() };
         let (mut is_corrupt, mut complaint, mut meant) = (false, None, 1);
-        let is_before = self.is_partial && !self.has_begun;
+        let heard = if self.has_begun { HeardBefore::Own } else { self.heard };
         let time = loop {
             match self.log.next() {
                 Some(Event::Frame(time)) => break time,
-                Some(Event::Corrupt | Event::Complaint(_) | Event::CorruptPacket(_)) if is_before => {
+                Some(Event::Corrupt | Event::Complaint(_) | Event::CorruptPacket(_))
+                    if heard == HeardBefore::Others =>
+                {
                     self.is_doubtful = true
                 }
+                Some(Event::Complaint(_)) if heard == HeardBefore::Leading => {}
                 Some(Event::Corrupt) => is_corrupt = true,
                 // Its decoder may paint over what it lacks without a word. Where streams were joined, nothing is lacking, and nobody can tell.
                 Some(Event::CorruptPacket(stream)) if stream == info.stream => {
@@ -239,6 +262,8 @@ impl Decoder {
 /// Returns what ffmpeg takes for damage: that is an error, and its frame is missed; otherwise it is painted over.
 fn detection(info: &VideoInfo) -> &'static str {
     match info.codec.as_str() {
+        // Frames that were cut off are errors, and so all that take after them, which need them in name only.
+        "h264" if info.leading > 0 => "crccheck+bitstream+buffer+aggressive",
         // Bits that are left over behind a slice, too. Decoders of other codecs take more for damage then, which may be none.
         "h264" => "crccheck+bitstream+buffer+explode+aggressive",
         _ => "crccheck+bitstream+buffer+explode",

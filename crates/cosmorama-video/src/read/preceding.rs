@@ -6,7 +6,7 @@ use cosmorama::raster::EncodedImage;
 
 use super::decoder::MARGIN;
 use super::{CodedOrder, Damaged, Fault, ReadOptions, VideoReader};
-use crate::probe::{CodedFrame, is_bare};
+use crate::probe::CodedFrame;
 use crate::{AnnouncedBy, Ffmpeg, Timeline, VideoError, VideoInfo};
 
 /// A video in which damage is looked for.
@@ -117,7 +117,7 @@ impl Looked<'_> {
         const BEHIND: f64 = 4.0;
         /// Seconds before it: the seek ends at a key frame before that.
         const BEFORE: f64 = 2.0;
-        let Some(time) = self.timeline.time(frame).filter(|_| !is_bare(&self.info.container)) else {
+        let Some(time) = self.timeline.time(frame).filter(|_| !self.info.is_bare()) else {
             return Ok(Vec::new());
         };
         let seconds = time as f64 * self.info.time_base.to_f64();

@@ -251,7 +251,7 @@ const ANSWERS: [(&str, &str, &[&str]); 3] = [
         "Content light level metadata", "max_content": 1000, "max_average": 400}]}]}"#,
         &["/", "0/0", "null", "[", "]", "{", "}"],
     ),
-    ("packets", "0,0,K__\n512,512,___\n1024,1024,__D\n1536,1536,___\n", &["D", ",", "\n", "N/A"]),
+    ("packets", "0,0,48,K__\n512,512,N/A,___\n1024,1024,96,__D\n1536,1536,120,___\n", &["D", ",", "\n", "N/A"]),
 ];
 
 /// Makes a program that stands in for ffprobe, and prints the files beside it.
@@ -317,7 +317,7 @@ fn answers_about_each_container_are_refused_or_understood() {
     let (ffmpeg, path) = (stand_in(folder.path()), folder.path().join("film"));
     let [(_, streams, _), (_, frames, _), _] = ANSWERS;
     std::fs::write(folder.path().join("frames"), frames).unwrap();
-    let packets = "N/A,2,___\n3,3,K__\n5,4,__D\nN/A,6,___\n4,4,K__\n";
+    let packets = "N/A,2,48,___\n3,3,96,K__\n5,4,120,__D\nN/A,6,200,___\n4,4,300,K__\n";
     let words = ["N/A", ",", "\n", "K", "D", "-", "9223372036854775807"];
     let containers = ["avi", "mpegts", "mpeg", "h264", "flv", "asf", "mov,mp4"];
     let count = Mutants::count(420) / containers.len();

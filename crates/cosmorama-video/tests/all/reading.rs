@@ -3,7 +3,7 @@
 use cosmorama::raster::{Channels, Depth, Samples};
 use cosmorama_video::{AnnouncedBy, FrameCondition, ReadOptions, StreamKind, VideoError, VideoReader};
 
-use crate::common::{ffmpeg, frames, moving, of, raw, run};
+use crate::common::{ffmpeg, frames, moving, of, probed, raw, run};
 
 #[test]
 fn properties_are_read() {
@@ -112,6 +112,8 @@ fn every_frame_is_read_whatever_its_container_tells() {
         ("e.wmv", "-c:v libx264 -bf 2", 0),
         ("f.h264", "-c:v libx264 -bf 2", 0),
         ("g.m2v", "-c:v mpeg2video -bf 2", 0),
+        ("l.m1v", "-c:v mpeg1video -bf 2", 0),
+        ("m.m1v", "-c:v mpeg1video -bf 0", 0),
         ("h.m2p", "-c:v mpeg2video -bf 2 -f mpeg", 0),
         ("i.avi", "-c:v mpeg1video", 0),
         ("j.flv", "-c:v libx264 -bf 2", 0),
@@ -130,6 +132,69 @@ fn every_frame_is_read_whatever_its_container_tells() {
             let part = frames(&ffmpeg, &path, of(first, last)).unwrap();
             assert!(part == all[first as usize..=last as usize], "{name} {first} to {last}");
         }
+    }
+}
+
+/// Behind a cut without coding anew, frames of open groups come that took after others: no player shows them, and whatever the container tells,
+/// the film begins behind them.
+#[test]
+fn films_that_were_cut_out_begin_with_the_first_frame_that_can_be_decoded() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let x264 = "-c:v libx264 -bf 3 -x264-params open-gop=1:keyint=12:min-keyint=12:scenecut=0:b-pyramid=strict";
+    let x265 = "-c:v libx265 -bf 3 -x265-params open-gop=1:keyint=12:min-keyint=12:scenecut=0:log-level=error";
+    let mpeg = "-bf 2 -g 12 -sc_threshold 1000000000 -c:v";
+    for (codec, arguments, source, cuts) in [
+        ("h264", x264, "mp4", &["mp4", "mkv", "avi"][..]),
+        ("hevc", x265, "mp4", &["mp4", "mkv", "avi", "ts"]),
+        ("mpeg2", &format!("{mpeg} mpeg2video"), "mkv", &["mkv", "avi", "ts"]),
+        ("mpeg4", &format!("{mpeg} mpeg4"), "mp4", &["mkv", "avi", "mov"]),
+        ("mpeg4", &format!("{mpeg} mpeg4"), "avi", &["avi"]),
+    ] {
+        let film = folder.path().join(format!("{codec}.{source}"));
+        run(&format!("{} {arguments} -threads 2", moving(64, 32, "25", 100)), &film);
+        let all = frames(&ffmpeg, &film, ReadOptions::default()).unwrap();
+        for container in cuts {
+            let cut = folder.path().join(format!("{codec}-{source}.{container}"));
+            run(&format!("-i {} -ss 0.5 -c copy", film.display()), &cut);
+            let name = format!("{codec} from {source} in {container}");
+            let info = ffmpeg.probe(&cut).unwrap();
+            // MP4 and MOV tell themselves that they are not to be shown.
+            assert_eq!(info.left_out > 0, !["mp4", "mov"].contains(container), "{name}: {}", info.left_out);
+            let left = frames(&ffmpeg, &cut, ReadOptions::default()).unwrap();
+            assert!(left.len() > 60 && left.len() < 88, "{name}: {}", left.len());
+            let pictures = left.iter().zip(&all[100 - left.len()..]);
+            assert!(pictures.clone().all(|(left, all)| left.image == all.image), "{name}");
+            assert!(left.iter().all(|frame| frame.condition == FrameCondition::Whole), "{name}");
+            let last = left.len() as u64 - 1;
+            for (first, last) in [(0, 1), (20, 21), (55, 57), (last - 1, last)] {
+                let part = frames(&ffmpeg, &cut, of(first, last)).unwrap();
+                assert!(part == left[first as usize..=last as usize], "{name} {first} to {last}");
+            }
+        }
+    }
+}
+
+/// Where its key frame is damaged, a film that was cut out does not begin with a later one.
+#[test]
+fn a_damaged_key_frame_is_no_cut() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let x264 = "-c:v libx264 -bf 3 -x264-params open-gop=1:keyint=12:min-keyint=12:scenecut=0";
+    let (film, cut) = (folder.path().join("a.mp4"), folder.path().join("b"));
+    run(&format!("{} {x264}", moving(64, 32, "25", 50)), &film);
+    for container in ["mp4", "mkv", "avi"] {
+        let cut = cut.with_extension(container);
+        run(&format!("-i {} -ss 0.5 -c copy", film.display()), &cut);
+        let told = probed(&cut, "-show_entries packet=pos,size -of csv=p=0");
+        let mut numbers = told.lines().next().unwrap().split(',').map(|number| number.parse::<usize>().unwrap());
+        let (size, at) = (numbers.next().unwrap(), numbers.next().unwrap());
+        let mut bytes = std::fs::read(&cut).unwrap();
+        // Behind its mark and the first words of its first part.
+        bytes[at + 16..at + size].fill(0);
+        std::fs::write(&cut, bytes).unwrap();
+        let error = frames(&ffmpeg, &cut, ReadOptions::default()).unwrap_err();
+        assert!(matches!(error, VideoError::DamagedFrame { frame: 0, .. }), "{container}: {error}");
     }
 }
 

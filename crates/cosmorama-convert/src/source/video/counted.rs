@@ -46,6 +46,7 @@ fn counted(ffmpeg: &Ffmpeg, info: &VideoInfo, damaged: Damaged) -> Result<u64, V
 /// leaves them out, and its duration tells so.
 fn hides_frames(info: &VideoInfo, counted: u64) -> bool {
     let is_count = matches!(info.announced, Some(Announced { by: AnnouncedBy::Count, .. }));
-    let shown = |seconds: f64| (seconds * info.rate.to_f64()).round() as u64;
+    // The list may begin within a frame, which is left out whole.
+    let shown = |seconds: f64| (seconds * info.rate.to_f64() + 0.25).floor() as u64;
     is_count && info.cut.is_none() && info.duration.is_some_and(|seconds| shown(seconds) < counted)
 }

@@ -37,10 +37,15 @@ fn depth(bits: u32) -> Depth {
 /// Returns the metadata of a frame. YUV without a tag is shown as television is, and RGB as pictures are.
 pub(super) fn metadata(info: &VideoInfo) -> Metadata {
     let untagged = if info.is_rgb { None } else { Some(Transfer::Bt1886) };
+    let cut_off = (info.left_out > 0).then(|| {
+        let count = info.left_out;
+        format!("its first {count} frames took after others, which were cut off; it begins behind them, as in players")
+    });
+    let ignored = info.spatial.as_ref().and_then(|tags| not_followed(tags, info.size()));
     Metadata {
         transfer: info.colour.known_transfer().or(untagged),
         primaries: info.colour.known_primaries(),
-        complaints: info.spatial.as_ref().and_then(|tags| not_followed(tags, info.size())).into_iter().collect(),
+        complaints: cut_off.into_iter().chain(ignored).collect(),
         notes: info.notes.clone(),
         ..Metadata::default()
     }
