@@ -2,16 +2,21 @@
 
 use std::fs::File;
 use std::path::Path;
+use std::time::Duration;
 
 use serde_json::Value;
 
-use super::container::{ASF, AVI, FLV, begins_anywhere, is_bare_mpeg1, is_boxes, is_matroska};
+use super::beginning::Beginning;
+use super::container::{ASF, AVI, FLV, begins_anywhere, is_boxes, is_matroska};
 use super::first_frame::FirstFrame;
+use super::packets::CodedStream;
 use super::stream::{Stream, delay, ratio, text};
-use super::timeline::{Beginning, CodedStream, PATIENCE};
 use super::{Announced, AnnouncedBy, CutShort, OtherStream, Places, StreamKind, Timeline, VideoInfo, structure};
 use crate::ffmpeg::Said;
 use crate::{Ffmpeg, SpatialTags, VideoError};
+
+/// Time in which a file must be probed.
+pub(super) const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Bytes of ffprobe's answer.
 const ANSWER: usize = 16 << 20;
@@ -176,21 +181,6 @@ fn begin_at(stream: &mut Value, first: i64, container: &str) {
     }
     stream["start_pts"] = Value::from(first);
     stream["start_time"] = Value::from(time.to_string());
-}
-
-impl VideoInfo {
-    /// Notes where the video begins.
-    fn begin(&mut self, beginning: Option<Beginning>) {
-        if is_bare_mpeg1(&self.container, &self.codec) {
-            // Of a stream without a mean rate, ffmpeg counts from 0, and not from before the frames that are kept back.
-            self.start = self.rate.inverse().rescale(self.delay as i64, self.time_base);
-        }
-        let Some(Beginning { leading, left_out, .. }) = beginning.filter(|beginning| beginning.leading > 0) else {
-            return;
-        };
-        (self.leading, self.left_out) = (leading, left_out);
-        self.announced = self.announced.map(|told| Announced { frames: told.frames.saturating_sub(leading), ..told });
-    }
 }
 
 /// Looks at a file before ffprobe does: only files are read, and no pipe without a writer is waited for.

@@ -2,8 +2,8 @@
 
 use serde_json::Value;
 
+use super::document::PATIENCE;
 use super::stream::side_data;
-use super::timeline::PATIENCE;
 use crate::{Ffmpeg, HdrTags, VideoError, VideoInfo};
 
 /// Bytes of ffprobe's answer about a frame.

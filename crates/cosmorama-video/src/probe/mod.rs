@@ -1,9 +1,11 @@
 //! Properties of a video file, as ffprobe and the file's own structure tell them.
 
 mod avi;
+mod beginning;
 mod container;
 mod document;
 mod first_frame;
+mod packets;
 mod pixel_format;
 mod stream;
 mod structure;
@@ -14,9 +16,9 @@ use std::path::PathBuf;
 
 pub(crate) use avi::{Places, Uncounted};
 pub(crate) use container::{AVI, is_boxes};
-use timeline::CodedStream;
+use packets::CodedStream;
+pub(crate) use packets::{CodedFrame, shown_times};
 pub use timeline::Timeline;
-pub(crate) use timeline::{CodedFrame, shown_times};
 pub use turn::Turn;
 
 use crate::{ColourTags, HdrTags, Ratio, SignalRange, SpatialTags};

@@ -18,11 +18,11 @@ pub(super) struct Start {
     pub(super) seek: Option<f64>,
     /// Time in ticks of the first frame that is wanted.
     pub(super) from: Option<i64>,
-    /// What is heard before that frame.
+    /// Meaning of messages before that frame.
     pub(super) heard: HeardBefore,
 }
 
-/// What is heard before the first frame that is wanted.
+/// Meaning of messages before the first frame that is wanted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum HeardBefore {
     /// Messages of that frame.
@@ -72,7 +72,7 @@ pub(super) struct Decoder {
     rows: Range<usize>,
     /// Whether a frame that is wanted has been told.
     has_begun: bool,
-    /// What is heard before it.
+    /// Meaning of messages before it.
     heard: HeardBefore,
     /// Whether something was heard before it: frames may be damaged, or lack others before the place where decoding began.
     is_doubtful: bool,
