@@ -12,17 +12,25 @@ use crate::{Ffmpeg, VideoError};
 pub(super) struct Beginning {
     /// Time of the first frame.
     pub(super) start: i64,
-    /// Coded frames that come before it, behind a key frame.
+    /// Time of the first coded frame that is to be shown, if only those before it were not cut off.
+    pub(super) first: i64,
+    /// Coded frames that would be shown before it, behind the key frame with which the stream begins.
     pub(super) leading: u64,
     /// Leading frames that are to be shown.
     pub(super) left_out: u64,
 }
 
 impl Beginning {
-    /// Returns the beginning at a time, of coded frames that have times and of those that are to be shown.
-    fn after(coded: &[i64], shown: &[i64], start: i64) -> Self {
-        let before = |times: &[i64]| times.iter().filter(|time| **time < start).count() as u64;
-        Self { start, leading: before(coded), left_out: before(shown) }
+    /// Returns that of a stream that begins with its first coded frame.
+    fn whole(start: i64) -> Self {
+        Self { start, first: start, leading: 0, left_out: 0 }
+    }
+
+    /// Returns the beginning at a time, behind coded frames before that, of which some are to be shown, and others that have no time.
+    fn behind(coded: &[i64], shown: &[i64], untimed: u64, start: i64) -> Self {
+        let before = |times: &[i64]| times.iter().filter(|time| **time < start).count() as u64 + untimed;
+        let first = shown.first().map_or(start, |first| start.min(*first));
+        Self { start, first, leading: before(coded), left_out: before(shown) }
     }
 }
 
@@ -33,35 +41,61 @@ impl Ffmpeg {
         let packets = self.packets(path, stream, &FIRST)?;
         let shown = stream.shown_times(&packets);
         let Some(first) = shown.first().copied() else { return Ok(None) };
-        let whole = Beginning { start: first, leading: 0, left_out: 0 };
-        let Some(key) = packets.first().filter(|packet| packet.is_key && stream.delay > 0) else {
-            return Ok(Some(whole));
+        let may_lead = stream.delay > 0 && packets.first().is_some_and(|packet| packet.is_key);
+        Ok(Some(
+            match may_lead {
+                true if stream.tells_times(&packets) => self.beginning_by_times(path, stream, &packets, &shown),
+                true => self.beginning_without_times(path, stream, &packets, &shown),
+                false => None,
+            }
+            .unwrap_or(Beginning::whole(first)),
+        ))
+    }
+
+    /// Finds where a stream begins that tells when its frames are shown; `None` if with its first coded frame.
+    fn beginning_by_times(
+        &self,
+        path: &Path,
+        stream: CodedStream,
+        packets: &[Packet],
+        shown: &[i64],
+    ) -> Option<Beginning> {
+        let coded: Vec<i64> = timed(packets).iter().map(|frame| frame.time).collect();
+        let untimed = if is_matroska(stream.container) { untimed_behind_first(packets) } else { 0 };
+        let key = coded.first().filter(|key| untimed > 0 || coded.iter().any(|time| time < key))?;
+        let start = shown.iter().copied().find(|time| time >= key)?;
+        let decoded = self.first_decoded(path, stream).ok().flatten();
+        // Where one of them can be decoded, they were not cut off: if others cannot, these are damaged.
+        let is_behind = |decoded: FirstDecoded| match untimed {
+            0 => decoded.time >= start,
+            _ => decoded.byte.is_some() && decoded.byte == packets[0].byte,
         };
-        if !stream.tells_times(&packets) {
-            // A later frame would be the first where the key frame is damaged.
-            let decoded = self.first_decoded(path, stream)?.filter(|decoded| decoded.byte == key.byte);
-            let start = decoded.map_or(first, |decoded| decoded.time);
-            return Ok(Some(Beginning::after(&shown, &shown, start)));
-        }
-        let coded: Vec<i64> = timed(&packets).iter().map(|frame| frame.time).collect();
-        let untimed = if is_matroska(stream.container) { untimed_behind_first(&packets) } else { 0 };
-        let Some(key) = coded.first().filter(|key| untimed > 0 || coded.iter().any(|time| time < key)) else {
-            return Ok(Some(whole));
-        };
-        let latest = shown.iter().copied().find(|time| time >= key).unwrap_or(first);
-        let decoded = self.first_decoded(path, stream)?;
-        let start = decoded.map_or(latest, |decoded| decoded.time.clamp(first, latest));
-        let Beginning { leading, left_out, .. } = Beginning::after(&coded, &shown, start);
-        Ok(Some(Beginning { start, leading: leading + untimed, left_out: left_out + untimed }))
+        decoded.is_none_or(is_behind).then(|| Beginning::behind(&coded, shown, untimed, start))
+    }
+
+    /// Finds where a stream begins that does not tell when its frames are shown; `None` if with its first coded frame, as far as is known.
+    fn beginning_without_times(
+        &self,
+        path: &Path,
+        stream: CodedStream,
+        packets: &[Packet],
+        shown: &[i64],
+    ) -> Option<Beginning> {
+        let key = packets.first()?.byte?;
+        // Behind a key frame that is damaged, the decoder begins with a later one.
+        let decoded = self.first_decoded(path, stream).ok().flatten().filter(|decoded| decoded.byte == Some(key))?;
+        Some(Beginning::behind(shown, shown, 0, decoded.time))
     }
 
     /// Decodes the first frames, and returns the first that is shown.
     fn first_decoded(&self, path: &Path, stream: CodedStream) -> Result<Option<FirstDecoded>, VideoError> {
+        /// Packets that a decoder keeps back, 16 at most, and some more.
+        const ENOUGH: [&str; 2] = ["-read_intervals", "%+#20"];
         let index = stream.index.to_string();
         let entries =
             ["-select_streams", &index, "-show_entries", "frame=best_effort_timestamp,pkt_pos", "-of", "csv=p=0"];
         let mut first = None;
-        self.ffprobe_lines(path, &[&entries[..], &["-read_intervals", "%+#20"]].concat(), |line| {
+        self.ffprobe_lines(path, &[&entries[..], &ENOUGH].concat(), |line| {
             first = first.or_else(|| FirstDecoded::of_line(line));
             Ok(())
         })?;
@@ -91,7 +125,7 @@ impl VideoInfo {
     /// Notes where the video begins.
     pub(super) fn begin(&mut self, beginning: Option<Beginning>) {
         if is_bare_mpeg1(&self.container, &self.codec) {
-            // Of a stream without a mean rate, ffmpeg counts from 0, and not from before the frames that are kept back.
+            // ffmpeg guesses no mean rate of it, and then counts from 0, and not from before the frames that are kept back.
             self.start = self.rate.inverse().rescale(self.delay as i64, self.time_base);
         }
         let Some(Beginning { leading, left_out, .. }) = beginning.filter(|beginning| beginning.leading > 0) else {

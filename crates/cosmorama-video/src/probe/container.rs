@@ -6,6 +6,9 @@ pub(crate) const AVI: &str = "avi";
 /// Name of FLV.
 pub(super) const FLV: &str = "flv";
 
+/// Name of NUT.
+pub(super) const NUT: &str = "nut";
+
 /// Name of ASF, which WMV is, too.
 pub(super) const ASF: &str = "asf";
 

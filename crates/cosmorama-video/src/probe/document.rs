@@ -7,10 +7,10 @@ use std::time::Duration;
 use serde_json::Value;
 
 use super::beginning::Beginning;
-use super::container::{ASF, AVI, FLV, begins_anywhere, is_boxes, is_matroska};
+use super::container::{ASF, AVI, FLV, NUT, begins_anywhere, is_boxes, is_matroska};
 use super::first_frame::FirstFrame;
 use super::packets::CodedStream;
-use super::stream::{Stream, delay, ratio, text};
+use super::stream::{Stream, delay, is_statistic, ratio, text};
 use super::{Announced, AnnouncedBy, CutShort, OtherStream, Places, StreamKind, Timeline, VideoInfo, structure};
 use crate::ffmpeg::Said;
 use crate::{Ffmpeg, SpatialTags, VideoError};
@@ -50,6 +50,7 @@ impl Ffmpeg {
         let number = streams(&document).iter().position(is_chosen).ok_or_else(no_video)?;
         let container = text(&document["format"], "format_name").unwrap_or_default().to_owned();
         let container = container.as_str();
+        drop_statistics(&mut document, number);
         let tells_start = is_boxes(container) || (is_matroska(container) && cut.is_none());
         let beginning = self.beginning_of(path, container, &document["streams"][number], tells_start);
         if let Some(Beginning { start, .. }) = beginning {
@@ -70,23 +71,20 @@ impl Ffmpeg {
         info.begin(beginning);
         info.chapters = document["chapters"].as_array().map_or(0, Vec::len);
         info.file_start = match container {
-            // Its sound begins with the first frame, whatever the times of these.
-            AVI => info.start as f64 * info.time_base.to_f64(),
+            // Its sound begins with the first coded frame, whatever the times of these.
+            AVI => beginning.map_or(info.start, |beginning| beginning.first) as f64 * info.time_base.to_f64(),
             _ => text(format, "start_time").and_then(|time| time.parse().ok()).unwrap_or(0.0),
         };
         info.metadata = metadata(format);
         info.timecode = timecode(&streams[number], streams, format);
         info.cut = cut;
         let alone = others.is_empty().then(|| text(format, "duration")).flatten();
-        // FLV counts it from 0, and not from the first frame; ASF tells that of the longest stream.
-        let before = if container == FLV { info.start as f64 * info.time_base.to_f64() } else { 0.0 };
+        // FLV, NUT and Matroska count it from 0, and not from the first frame; ASF tells that of the longest stream; of bare streams, it is guessed.
+        let counts_from_0 = [FLV, NUT].contains(&container) || is_matroska(container);
+        let before = if counts_from_0 { info.start as f64 * info.time_base.to_f64() } else { 0.0 };
         info.duration = info.duration.or_else(|| Some(alone?.parse::<f64>().ok()? - before));
-        info.duration = info.duration.filter(|_| container != ASF || others.is_empty());
+        info.duration = info.duration.filter(|_| (container != ASF || others.is_empty()) && !info.is_bare());
         info.others = others;
-        if info.is_bare() {
-            // It is guessed from the number of bytes.
-            info.duration = None;
-        }
         info.announced = info.announced.or_else(|| announced_by_duration(&info));
         self.complete(&mut info)?;
         Ok(info)
@@ -114,6 +112,9 @@ impl Ffmpeg {
             // A duration tells no number of frames where their rate varies.
             let is_told = |told: &Announced| told.by == AnnouncedBy::Count || !info.is_variable;
             info.announced = info.announced.filter(is_told);
+        }
+        if is_boxes(&info.container) && info.cut.is_none() {
+            self.count_lacking(info)?;
         }
         if info.container == AVI && info.cut.is_none() {
             self.count_places(info)?;
@@ -143,6 +144,18 @@ impl Ffmpeg {
         if info.colour.matrix.is_none() && !info.is_rgb && !info.is_grey {
             let name = crate::colour::Axis::Matrix.name(info.matrix());
             info.notes.push(format!("it names no matrix from YUV to RGB; by its size, {name} is taken"));
+        }
+        Ok(())
+    }
+
+    /// Corrects the number of frames that an MP4 announces: it counts none that are lacking before its last.
+    fn count_lacking(&self, info: &mut VideoInfo) -> Result<(), VideoError> {
+        if let Some(Announced { frames, by: AnnouncedBy::Count }) = info.announced
+            && !info.is_variable
+            && info.delay > 0
+        {
+            let frames = frames.max(self.frames_by_time(info)?);
+            info.announced = Some(Announced { frames, by: AnnouncedBy::Count });
         }
         Ok(())
     }
@@ -181,6 +194,14 @@ fn begin_at(stream: &mut Value, first: i64, container: &str) {
     }
     stream["start_pts"] = Value::from(first);
     stream["start_time"] = Value::from(time.to_string());
+}
+
+/// Takes the statistics of mkvmerge out of a stream's tags where ffmpeg wrote the file: it copies those of another, which it cut.
+fn drop_statistics(document: &mut Value, stream: usize) {
+    let is_copy = tag(&document["format"], "encoder").is_some_and(|encoder| encoder.starts_with("Lavf"));
+    if let Some(tags) = document["streams"][stream]["tags"].as_object_mut().filter(|_| is_copy) {
+        tags.retain(|name, _| !is_statistic(name));
+    }
 }
 
 /// Looks at a file before ffprobe does: only files are read, and no pipe without a writer is waited for.

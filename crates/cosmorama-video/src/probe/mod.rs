@@ -87,7 +87,7 @@ pub struct VideoInfo {
     pub(crate) file_start: f64,
     /// Frames at the beginning that take after others before them, which were cut off; decoders make them up, or give none.
     pub(crate) early: u64,
-    /// Coded frames behind the first key frame that come before the first frame, and took after others that were cut off.
+    /// Coded frames, behind the key frame with which the stream begins, that would be shown before the first one that is.
     pub(crate) leading: u64,
     /// Frames that a decoder keeps back, to give them in the order in which they are shown.
     pub(crate) delay: u64,

@@ -51,6 +51,10 @@ impl Ffmpeg {
         let arguments = [stream.input_options(), &entries, part].concat();
         let mut packets = Vec::new();
         self.ffprobe_lines(path, &arguments, |line| {
+            // Behind those of a packet's side data, ffprobe ends the line once more.
+            if line.is_empty() {
+                return Ok(());
+            }
             packets.push(Packet::of_line(line));
             if packets.len() > MOST_FRAMES {
                 let found = format!("it has more than {MOST_FRAMES} frames");

@@ -146,20 +146,29 @@ fn duration(value: &Value) -> Option<f64> {
     let start = text(value, "start_time").and_then(|seconds| seconds.parse::<f64>().ok()).unwrap_or(0.0);
     let tag = || {
         let tags = value["tags"].as_object()?;
-        let is_statistic = tags.keys().any(|name| name.starts_with("_STATISTICS"));
+        let is_counted = tags.keys().any(|name| name.starts_with("_STATISTICS"));
         let (_, text) = tags.iter().find(|(name, _)| name.eq_ignore_ascii_case("duration"))?;
         let end =
             text.as_str()?.trim().split(':').try_fold(0.0, |sum, part| Some(sum * 60.0 + part.parse::<f64>().ok()?));
-        Some(if is_statistic { end? } else { end? - start })
+        Some(if is_counted { end? } else { end? - start })
     };
     // Of a cut file, Matroska's own is that of all streams together.
     tag().or(own).filter(|seconds: &f64| seconds.is_finite() && *seconds > 0.0)
 }
 
+/// Returns whether a tag is one of mkvmerge's statistics that counts here: the number of frames, or the program that counted.
+pub(super) fn is_statistic(name: &str) -> bool {
+    let name = name.to_ascii_uppercase();
+    name.starts_with(FRAMES) || name.starts_with("_STATISTICS")
+}
+
+/// Beginning of the tag that counts frames; a language may follow.
+const FRAMES: &str = "NUMBER_OF_FRAMES";
+
 /// Returns the container's own count, or that of Matroska's statistics.
 fn announced(value: &Value) -> Option<Announced> {
     let tags = value["tags"].as_object().into_iter().flatten();
-    let counted = tags.filter(|(name, _)| name.to_ascii_uppercase().starts_with("NUMBER_OF_FRAMES"));
+    let counted = tags.filter(|(name, _)| name.to_ascii_uppercase().starts_with(FRAMES));
     let texts = text(value, "nb_frames").into_iter().chain(counted.filter_map(|(_, count)| count.as_str()));
     let frames = texts.filter_map(|count| count.trim().parse().ok()).find(|count| *count > 0)?;
     Some(Announced { frames, by: AnnouncedBy::Count })

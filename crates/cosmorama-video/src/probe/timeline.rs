@@ -1,4 +1,4 @@
-use super::packets::{CodedStream, FIRST};
+use super::packets::{CodedStream, FIRST, shown_times};
 use crate::{Ffmpeg, Ratio, VideoError, VideoInfo};
 
 /// Times of a video's frames.
@@ -105,6 +105,19 @@ impl Ffmpeg {
             return Err(VideoError::NoVideo { path: info.path.clone(), reason });
         }
         Ok(Timeline::Listed { times, time_base: info.time_base })
+    }
+
+    /// Returns how many frames a film of a constant rate has by the time of its last one: where it lacks some before that, as at the end of a
+    /// film that was cut out without coding it anew, these are more than it counts.
+    pub(super) fn frames_by_time(&self, info: &VideoInfo) -> Result<u64, VideoError> {
+        /// Seconds from the end, within which the last frame is decoded.
+        const END: f64 = 2.0;
+        let end = info.start as f64 * info.time_base.to_f64() + info.duration.unwrap_or(0.0);
+        let part = format!("{:.3}%", (end - END).max(0.0));
+        let coded = self.coded_frames(info, &["-read_intervals", &part])?;
+        let last = shown_times(&coded).last().copied();
+        let even = Timeline::Even { start: info.start, time_base: info.time_base, rate: info.rate };
+        Ok(last.map_or(0, |last| even.frame(last) + 1))
     }
 
     /// Finds out whether the first hundred frames follow each other at the rate that is told.

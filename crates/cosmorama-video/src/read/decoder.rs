@@ -166,7 +166,7 @@ impl Decoder {
                 {
                     self.is_doubtful = true
                 }
-                Some(Event::Complaint(_)) if heard == HeardBefore::Leading => {}
+                Some(Event::Complaint(text)) if heard == HeardBefore::Leading && is_of_cut_off(&text) => {}
                 Some(Event::Corrupt) => is_corrupt = true,
                 // Its decoder may paint over what it lacks without a word. Where streams were joined, nothing is lacking, and nobody can tell.
                 Some(Event::CorruptPacket(stream)) if stream == info.stream => {
@@ -268,6 +268,18 @@ fn detection(info: &VideoInfo) -> &'static str {
         "h264" => "crccheck+bitstream+buffer+explode+aggressive",
         _ => "crccheck+bitstream+buffer+explode",
     }
+}
+
+/// Returns whether ffmpeg's decoder of H.264 says that frames lack others, and not that they are damaged (`libavcodec/h264_refs.c`).
+fn is_of_cut_off(text: &str) -> bool {
+    [
+        "mmco: unref short failure",
+        "number of reference frames",
+        "Missing reference picture",
+        "reference picture missing",
+    ]
+    .iter()
+    .any(|lacking| text.contains(lacking))
 }
 
 /// Returns whether ffmpeg gives damaged frames on, painted over, with a message before each and no other sign.

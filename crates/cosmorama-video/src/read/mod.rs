@@ -1,5 +1,6 @@
 //! Frames of a video, by their numbers.
 
+mod ahead;
 mod decoder;
 mod filters;
 mod pair;

@@ -6,7 +6,7 @@ use cosmorama::raster::EncodedImage;
 
 use super::decoder::MARGIN;
 use super::{CodedOrder, Damaged, Fault, ReadOptions, VideoReader};
-use crate::probe::CodedFrame;
+use crate::probe::{AVI, CodedFrame};
 use crate::{AnnouncedBy, Ffmpeg, Timeline, VideoError, VideoInfo};
 
 /// A video in which damage is looked for.
@@ -17,6 +17,9 @@ pub(super) struct Looked<'a> {
     pub(super) timeline: &'a Timeline,
     pub(super) options: &'a ReadOptions,
 }
+
+/// B frames that follow each other at most.
+const MOST_B_FRAMES: u64 = 16;
 
 /// Damage around a frame, found by decoding once more. Messages alone do not tell: decoders complain of frames that lack others before the
 /// place where they began, too, and of frames that come later.
@@ -85,6 +88,22 @@ impl Looked<'_> {
             shown = Some(frame.image);
         }
         Ok(shown)
+    }
+
+    /// Returns whether frames that are missing would be decoded behind the last that the file has: where a film was cut out without coding it
+    /// anew, the end of its last group lacks them. They are not damaged, and players show the frame before on.
+    pub(super) fn lacks_from_its_end(self, missing: &Range<u64>) -> Result<bool, VideoError> {
+        let Self { info, timeline, .. } = self;
+        if info.is_variable
+            || info.cut.is_some()
+            || info.container == AVI
+            || missing.end - missing.start > MOST_B_FRAMES
+        {
+            return Ok(false);
+        }
+        let numbers = self.around(missing.end)?.into_iter().map(|coded| timeline.frame(coded.time));
+        let mut behind = numbers.skip_while(|number| *number != missing.end).peekable();
+        Ok(behind.peek().is_some() && behind.all(|number| number <= missing.end && !missing.contains(&number)))
     }
 
     /// Returns the number of the last frame, if the file lists or counts them: a duration may be rounded.

@@ -1,3 +1,4 @@
+use super::ahead::{Ahead, Complaint};
 use super::decoder::{Decoded, Decoder, Ended, Next, Start};
 use super::filters::check_memory;
 use super::preceding::{Beside, DELAY, Damage, Looked, PATIENCE};
@@ -45,22 +46,6 @@ pub struct VideoReader {
     beside: Vec<Fault>,
     /// Damage that was found by decoding once more.
     foreseen: Vec<Fault>,
-}
-
-/// Frame with its number.
-#[derive(Debug)]
-struct Ahead {
-    index: u64,
-    frame: Decoded,
-}
-
-/// Message of an error, and the frame before which it was heard.
-#[derive(Debug)]
-struct Complaint {
-    frame: u64,
-    /// Frames of which one is meant, from that one on.
-    meant: u64,
-    text: String,
 }
 
 /// Frames in a row that are held at most. More are no gap, but a lie about times or numbers.
@@ -190,7 +175,7 @@ impl VideoReader {
                 Some(Ahead { index, frame }) if index == self.expected && !frame.is_corrupt => {
                     Some(self.whole(index, frame))
                 }
-                Some(ahead) if self.is_behind_empty_place(&ahead) => self.repeat_before(Some(ahead))?,
+                Some(ahead) if self.is_behind_none(&ahead)? => self.repeat_before(Some(ahead))?,
                 Some(ahead) => self.gap(ahead)?,
                 None if self.expected < self.total.unwrap_or(0) && self.is_at_empty_place() => {
                     self.repeat_before(None)?
@@ -206,9 +191,8 @@ impl VideoReader {
 
     fn whole(&mut self, index: u64, frame: Decoded) -> VideoFrame {
         self.expected = index + 1;
-        if self.options.damaged == Damaged::Hold || self.is_empty_place(self.expected) {
-            self.held = Some(frame.image.clone());
-        }
+        let may_hold = self.options.damaged == Damaged::Hold || self.is_empty_place(self.expected);
+        self.held = may_hold.then(|| frame.image.clone());
         let time = frame.time.unwrap_or_else(|| self.time(index));
         self.last = time;
         VideoFrame { index, time, image: frame.image, condition: FrameCondition::Whole }
@@ -386,17 +370,24 @@ impl VideoReader {
         Ok(None)
     }
 
-    /// Returns whether the next frame comes behind a place that is left empty.
-    fn is_behind_empty_place(&self, ahead: &Ahead) -> bool {
-        let count = ahead.index.saturating_sub(self.expected);
-        !ahead.frame.is_corrupt && (1..=LONGEST_HOLD).contains(&count) && self.is_at_empty_place()
+    /// Returns whether the next frame comes behind a place that is left empty, or behind the end of a film that was cut out.
+    fn is_behind_none(&self, ahead: &Ahead) -> Result<bool, VideoError> {
+        let missing = self.expected..ahead.index;
+        if ahead.frame.is_corrupt || !(1..=LONGEST_HOLD).contains(&(missing.end.saturating_sub(missing.start))) {
+            return Ok(false);
+        }
+        Ok(self.is_at_empty_place() || (self.is_untold() && self.looked().lacks_from_its_end(&missing)?))
     }
 
     /// Returns whether the next frame is a place that an AVI leaves empty, behind a frame that is whole: there the frame before is shown on.
     fn is_at_empty_place(&self) -> bool {
-        let is_told =
-            self.is_told(self.expected) || self.expected.checked_sub(1).is_some_and(|frame| self.is_told(frame));
-        self.complaint.is_none() && !is_told && self.is_empty_place(self.expected)
+        self.is_untold() && self.is_empty_place(self.expected)
+    }
+
+    /// Returns whether nothing is told of the next frame and the one before.
+    fn is_untold(&self) -> bool {
+        let is_told = |frame: u64| self.is_told(frame);
+        self.complaint.is_none() && !is_told(self.expected) && !self.expected.checked_sub(1).is_some_and(is_told)
     }
 
     fn is_empty_place(&self, frame: u64) -> bool {
@@ -437,9 +428,9 @@ impl VideoReader {
         self.note(Fault { frame, count: end.min(self.end_of_range()) - frame, reason, is_given: true })
     }
 
-    /// Repeats the frame before; one that is the first of those that are asked for is decoded.
+    /// Repeats the frame before, which is decoded once more if it is not there.
     fn repeat_before(&mut self, ahead: Option<Ahead>) -> Result<Option<VideoFrame>, VideoError> {
-        if self.held.is_none() && self.looks_again && self.expected == self.first_asked() {
+        if self.held.is_none() && self.looks_again {
             self.held = self.looked().shown_before(self.expected)?;
         }
         let Some(image) = self.held.clone() else {

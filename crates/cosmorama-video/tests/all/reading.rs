@@ -156,7 +156,9 @@ fn films_that_were_cut_out_begin_with_the_first_frame_that_can_be_decoded() {
         let all = frames(&ffmpeg, &film, ReadOptions::default()).unwrap();
         for container in cuts {
             let cut = folder.path().join(format!("{codec}-{source}.{container}"));
-            run(&format!("-i {} -ss 0.5 -c copy", film.display()), &cut);
+            // As ffmpeg copies it from a film by mkvmerge.
+            let count = "-metadata:s:v NUMBER_OF_FRAMES=100 -metadata:s:v _STATISTICS_WRITING_APP=mkvmerge";
+            run(&format!("-i {} -ss 0.5 -c copy {count}", film.display()), &cut);
             let name = format!("{codec} from {source} in {container}");
             let info = ffmpeg.probe(&cut).unwrap();
             // MP4 and MOV tell themselves that they are not to be shown.
@@ -175,6 +177,57 @@ fn films_that_were_cut_out_begin_with_the_first_frame_that_can_be_decoded() {
     }
 }
 
+/// A film that was cut out ends where its coded frames do: some that would be shown before the last are not in it, and the frame before them
+/// is shown on, as in players.
+#[test]
+fn films_that_were_cut_out_end_with_their_last_frame() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let film = folder.path().join("a.mp4");
+    run(&format!("{} -c:v libx264 -bf 3 -threads 2", moving(256, 128, "25", 100)), &film);
+    let all = frames(&ffmpeg, &film, ReadOptions::default()).unwrap();
+    for (container, seconds) in [("mp4", "1.3"), ("mkv", "1.3"), ("ts", "1.3"), ("mp4", "2.1"), ("mkv", "2.1")] {
+        let cut = folder.path().join(format!("b.{container}"));
+        run(&format!("-i {} -t {seconds} -c copy", film.display()), &cut);
+        let packets = probed(&cut, "-select_streams v -show_entries packet=pts -of csv=p=0");
+        let coded = packets.lines().filter(|line| !line.is_empty()).count();
+        let left = frames(&ffmpeg, &cut, ReadOptions::default()).unwrap();
+        let told = ffmpeg.probe(&cut).unwrap().announced.filter(|told| told.by == AnnouncedBy::Count);
+        assert!(told.is_none_or(|told| told.frames == left.len() as u64), "{container}: {told:?}");
+        assert!(left.len() > coded, "{container} {seconds}: none is lacking");
+        let mut shown = 0;
+        for (frame, original) in left.iter().zip(&all) {
+            let is_repeated = frame.index > 0 && frame.image == left[frame.index as usize - 1].image;
+            assert!(is_repeated || frame.image == original.image, "{container} {seconds} {}", frame.index);
+            assert_eq!(frame.condition, FrameCondition::Whole);
+            shown += usize::from(!is_repeated);
+        }
+        assert_eq!(shown, coded, "{container} {seconds}");
+        let last = left.len() as u64 - 1;
+        for (first, last) in [(0, 1), (last - 4, last), (last - 2, last - 1), (last, last)] {
+            let part = frames(&ffmpeg, &cut, of(first, last)).unwrap();
+            assert!(part == left[first as usize..=last as usize], "{container} {seconds} {first} to {last}");
+        }
+    }
+}
+
+/// Other programs write no tag of the stream's duration into Matroska: that of the file begins before the first frame.
+#[test]
+fn a_cut_matroska_without_tags_has_no_more_frames() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let (film, cut) = (folder.path().join("a.mkv"), folder.path().join("b.mkv"));
+    run(&format!("{} -c:v mpeg4 -bf 2 -g 12 -sc_threshold 1000000000", moving(64, 32, "25", 100)), &film);
+    run(&format!("-i {} -ss 0.5 -c copy -write_crc32 0", film.display()), &cut);
+    let mut bytes = std::fs::read(&cut).unwrap();
+    let at = bytes.windows(8).position(|name| name == b"DURATION").unwrap();
+    bytes[at..at + 8].copy_from_slice(b"ANYTHING");
+    std::fs::write(&cut, bytes).unwrap();
+    let info = ffmpeg.probe(&cut).unwrap();
+    let left = frames(&ffmpeg, &cut, ReadOptions::default()).unwrap().len() as u64;
+    assert_eq!((info.announced.map(|told| told.frames), left < 88), (Some(left), true));
+}
+
 /// Where its key frame is damaged, a film that was cut out does not begin with a later one.
 #[test]
 fn a_damaged_key_frame_is_no_cut() {
@@ -182,19 +235,26 @@ fn a_damaged_key_frame_is_no_cut() {
     let folder = tempfile::tempdir().unwrap();
     let x264 = "-c:v libx264 -bf 3 -x264-params open-gop=1:keyint=12:min-keyint=12:scenecut=0";
     let (film, cut) = (folder.path().join("a.mp4"), folder.path().join("b"));
-    run(&format!("{} {x264}", moving(64, 32, "25", 50)), &film);
-    for container in ["mp4", "mkv", "avi"] {
+    run(&format!("{} {x264}", moving(256, 128, "25", 50)), &film);
+    // The edit list of an MP4 that is cut before its name is given leaves out the key frame itself.
+    for (container, is_hidden) in [("mp4", false), ("mkv", false), ("avi", false), ("mp4", true), ("mkv", true)] {
         let cut = cut.with_extension(container);
-        run(&format!("-i {} -ss 0.5 -c copy", film.display()), &cut);
+        let film = film.display();
+        let from = if is_hidden { format!("-ss 0.6 -i {film}") } else { format!("-i {film} -ss 0.5") };
+        run(&format!("{from} -c copy"), &cut);
         let told = probed(&cut, "-show_entries packet=pos,size -of csv=p=0");
         let mut numbers = told.lines().next().unwrap().split(',').map(|number| number.parse::<usize>().unwrap());
         let (size, at) = (numbers.next().unwrap(), numbers.next().unwrap());
-        let mut bytes = std::fs::read(&cut).unwrap();
-        // Behind its mark and the first words of its first part.
-        bytes[at + 16..at + size].fill(0);
-        std::fs::write(&cut, bytes).unwrap();
-        let error = frames(&ffmpeg, &cut, ReadOptions::default()).unwrap_err();
-        assert!(matches!(error, VideoError::DamagedFrame { frame: 0, .. }), "{container}: {error}");
+        let whole = std::fs::read(&cut).unwrap();
+        // Behind its mark and the first words of its first part, or in its middle.
+        for damaged in [at + 16..at + size, at + size / 2..at + size / 2 + 200] {
+            let mut bytes = whole.clone();
+            bytes[damaged].fill(0);
+            std::fs::write(&cut, bytes).unwrap();
+            let read = frames(&ffmpeg, &cut, ReadOptions::default()).map(|frames| frames.len());
+            let is_told = matches!(read, Err(VideoError::DamagedFrame { frame: 0, .. }));
+            assert!(is_told, "{container} {is_hidden}: {read:?}");
+        }
     }
 }
 

@@ -32,13 +32,14 @@ fn counted(ffmpeg: &Ffmpeg, info: &VideoInfo, damaged: Damaged) -> Result<u64, V
     listed.is_variable = true;
     let times = ffmpeg.timeline(&listed)?;
     let coded = times.frames().unwrap_or_default();
+    let last = coded.checked_sub(1).and_then(|last| times.time(last));
+    let numbered = || -> Result<u64, VideoError> { Ok(ffmpeg.timeline(info)?.frame(last.unwrap_or(0)) + 1) };
     if hides_frames(info, announced.unwrap_or(coded)) {
-        return Ok(coded);
+        return Ok(numbered()?.max(coded));
     }
     let Some(frames) = announced.filter(|frames| coded < *frames) else { return Ok(coded) };
     // A duration may be rounded up by one frame. Where the last has the last number all the same, another was lost.
-    let last = coded.checked_sub(1).and_then(|last| times.time(last));
-    let is_rounded = coded + 1 == frames && ffmpeg.timeline(info)?.frame(last.unwrap_or(0)) + 1 < frames;
+    let is_rounded = coded + 1 == frames && numbered()? < frames;
     Ok(if is_rounded { coded } else { frames })
 }
 
@@ -46,7 +47,7 @@ fn counted(ffmpeg: &Ffmpeg, info: &VideoInfo, damaged: Damaged) -> Result<u64, V
 /// leaves them out, and its duration tells so.
 fn hides_frames(info: &VideoInfo, counted: u64) -> bool {
     let is_count = matches!(info.announced, Some(Announced { by: AnnouncedBy::Count, .. }));
-    // The list may begin within a frame, which is left out whole.
+    // The edit list may begin within a frame, which is left out whole.
     let shown = |seconds: f64| (seconds * info.rate.to_f64() + 0.25).floor() as u64;
     is_count && info.cut.is_none() && info.duration.is_some_and(|seconds| shown(seconds) < counted)
 }

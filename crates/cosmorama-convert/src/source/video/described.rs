@@ -38,8 +38,10 @@ fn depth(bits: u32) -> Depth {
 pub(super) fn metadata(info: &VideoInfo) -> Metadata {
     let untagged = if info.is_rgb { None } else { Some(Transfer::Bt1886) };
     let cut_off = (info.left_out > 0).then(|| {
-        let count = info.left_out;
-        format!("its first {count} frames took after others, which were cut off; it begins behind them, as in players")
+        format!(
+            "frames that took after others, which were cut off, are left out at its beginning, as in players: {}",
+            info.left_out
+        )
     });
     let ignored = info.spatial.as_ref().and_then(|tags| not_followed(tags, info.size()));
     Metadata {
