@@ -12,8 +12,6 @@ use crate::{Ffmpeg, VideoError};
 pub(super) struct Beginning {
     /// Time of the first frame.
     pub(super) start: i64,
-    /// Time of the first coded frame that is to be shown, if only those before it were not cut off.
-    pub(super) first: i64,
     /// Coded frames that would be shown before it, behind the key frame with which the stream begins.
     pub(super) leading: u64,
     /// Leading frames that are to be shown.
@@ -23,14 +21,13 @@ pub(super) struct Beginning {
 impl Beginning {
     /// Returns that of a stream that begins with its first coded frame.
     fn whole(start: i64) -> Self {
-        Self { start, first: start, leading: 0, left_out: 0 }
+        Self { start, leading: 0, left_out: 0 }
     }
 
     /// Returns the beginning at a time, behind coded frames before that, of which some are to be shown, and others that have no time.
     fn behind(coded: &[i64], shown: &[i64], untimed: u64, start: i64) -> Self {
         let before = |times: &[i64]| times.iter().filter(|time| **time < start).count() as u64 + untimed;
-        let first = shown.first().map_or(start, |first| start.min(*first));
-        Self { start, first, leading: before(coded), left_out: before(shown) }
+        Self { start, leading: before(coded), left_out: before(shown) }
     }
 }
 
@@ -41,65 +38,8 @@ impl Ffmpeg {
         let packets = self.packets(path, stream, &FIRST)?;
         let shown = stream.shown_times(&packets);
         let Some(first) = shown.first().copied() else { return Ok(None) };
-        let may_lead = stream.delay > 0 && packets.first().is_some_and(|packet| packet.is_key);
-        Ok(Some(
-            match may_lead {
-                true if stream.tells_times(&packets) => self.beginning_by_times(path, stream, &packets, &shown),
-                true => self.beginning_without_times(path, stream, &packets, &shown),
-                false => None,
-            }
-            .unwrap_or(Beginning::whole(first)),
-        ))
-    }
-
-    /// Finds where a stream begins that tells when its frames are shown; `None` if with its first coded frame.
-    fn beginning_by_times(
-        &self,
-        path: &Path,
-        stream: CodedStream,
-        packets: &[Packet],
-        shown: &[i64],
-    ) -> Option<Beginning> {
-        let coded: Vec<i64> = timed(packets).iter().map(|frame| frame.time).collect();
-        let untimed = if is_matroska(stream.container) { untimed_behind_first(packets) } else { 0 };
-        let key = coded.first().filter(|key| untimed > 0 || coded.iter().any(|time| time < key))?;
-        let start = shown.iter().copied().find(|time| time >= key)?;
-        let decoded = self.first_decoded(path, stream).ok().flatten();
-        // Where one of them can be decoded, they were not cut off: if others cannot, these are damaged.
-        let is_behind = |decoded: FirstDecoded| match untimed {
-            0 => decoded.time >= start,
-            _ => decoded.byte.is_some() && decoded.byte == packets[0].byte,
-        };
-        decoded.is_none_or(is_behind).then(|| Beginning::behind(&coded, shown, untimed, start))
-    }
-
-    /// Finds where a stream begins that does not tell when its frames are shown; `None` if with its first coded frame, as far as is known.
-    fn beginning_without_times(
-        &self,
-        path: &Path,
-        stream: CodedStream,
-        packets: &[Packet],
-        shown: &[i64],
-    ) -> Option<Beginning> {
-        let key = packets.first()?.byte?;
-        // Behind a key frame that is damaged, the decoder begins with a later one.
-        let decoded = self.first_decoded(path, stream).ok().flatten().filter(|decoded| decoded.byte == Some(key))?;
-        Some(Beginning::behind(shown, shown, 0, decoded.time))
-    }
-
-    /// Decodes the first frames, and returns the first that is shown.
-    fn first_decoded(&self, path: &Path, stream: CodedStream) -> Result<Option<FirstDecoded>, VideoError> {
-        /// Packets that a decoder keeps back, 16 at most, and some more.
-        const ENOUGH: [&str; 2] = ["-read_intervals", "%+#20"];
-        let index = stream.index.to_string();
-        let entries =
-            ["-select_streams", &index, "-show_entries", "frame=best_effort_timestamp,pkt_pos", "-of", "csv=p=0"];
-        let mut first = None;
-        self.ffprobe_lines(path, &[&entries[..], &ENOUGH].concat(), |line| {
-            first = first.or_else(|| FirstDecoded::of_line(line));
-            Ok(())
-        })?;
-        Ok(first)
+        let listed = Listed { ffmpeg: self, path, stream, packets, shown };
+        Ok(Some(listed.behind_cut_off().unwrap_or(Beginning::whole(first))))
     }
 
     /// Counts the frames that are shown before the first key frame, where the video does not begin with one.
@@ -133,6 +73,65 @@ impl VideoInfo {
         };
         (self.leading, self.left_out) = (leading, left_out);
         self.announced = self.announced.map(|told| Announced { frames: told.frames.saturating_sub(leading), ..told });
+    }
+}
+
+/// First coded frames of a stream.
+struct Listed<'a> {
+    ffmpeg: &'a Ffmpeg,
+    path: &'a Path,
+    stream: CodedStream<'a>,
+    packets: Vec<Packet>,
+    /// Times of those that are shown, in their order.
+    shown: Vec<i64>,
+}
+
+impl Listed<'_> {
+    /// Finds where the stream begins, behind frames that take after others that were cut off; `None` if with its first coded frame.
+    fn behind_cut_off(&self) -> Option<Beginning> {
+        let may_lead = self.stream.delay > 0 && self.packets.first()?.is_key;
+        match may_lead {
+            true if self.stream.tells_times(&self.packets) => self.by_times(),
+            true => self.without_times(),
+            false => None,
+        }
+    }
+
+    /// Finds that of a stream that tells when its frames are shown.
+    fn by_times(&self) -> Option<Beginning> {
+        let coded: Vec<i64> = timed(&self.packets).iter().map(|frame| frame.time).collect();
+        let untimed = if is_matroska(self.stream.container) { untimed_behind_first(&self.packets) } else { 0 };
+        let key = coded.first().filter(|key| untimed > 0 || coded.iter().any(|time| time < key))?;
+        let start = self.shown.iter().copied().find(|time| time >= key)?;
+        // Where one of them can be decoded, they were not cut off: if others cannot, these are damaged.
+        let is_behind = |decoded: FirstDecoded| match untimed {
+            0 => decoded.time >= start,
+            _ => decoded.byte.is_some() && decoded.byte == self.packets[0].byte,
+        };
+        self.first_decoded().is_none_or(is_behind).then(|| Beginning::behind(&coded, &self.shown, untimed, start))
+    }
+
+    /// Finds that of a stream that does not tell when its frames are shown, as far as it is known.
+    fn without_times(&self) -> Option<Beginning> {
+        let key = self.packets.first()?.byte?;
+        // Behind a key frame that is damaged, the decoder begins with a later one.
+        let decoded = self.first_decoded().filter(|decoded| decoded.byte == Some(key))?;
+        Some(Beginning::behind(&self.shown, &self.shown, 0, decoded.time))
+    }
+
+    /// Decodes the first frames, and returns the first that is shown; `None` also if that fails.
+    fn first_decoded(&self) -> Option<FirstDecoded> {
+        /// Packets that a decoder keeps back, 16 at most, and some more.
+        const ENOUGH: [&str; 2] = ["-read_intervals", "%+#20"];
+        let index = self.stream.index.to_string();
+        let entries =
+            ["-select_streams", &index, "-show_entries", "frame=best_effort_timestamp,pkt_pos", "-of", "csv=p=0"];
+        let mut first = None;
+        let lines = self.ffmpeg.ffprobe_lines(self.path, &[&entries[..], &ENOUGH].concat(), |line| {
+            first = first.or_else(|| FirstDecoded::of_line(line));
+            Ok(())
+        });
+        lines.ok().and(first)
     }
 }
 

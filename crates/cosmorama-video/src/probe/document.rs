@@ -70,11 +70,11 @@ impl Ffmpeg {
         let mut info = stream.into_info(path, container);
         info.begin(beginning);
         info.chapters = document["chapters"].as_array().map_or(0, Vec::len);
-        info.file_start = match container {
-            // Its sound begins with the first coded frame, whatever the times of these.
-            AVI => beginning.map_or(info.start, |beginning| beginning.first) as f64 * info.time_base.to_f64(),
-            _ => text(format, "start_time").and_then(|time| time.parse().ok()).unwrap_or(0.0),
-        };
+        info.file_start = text(format, "start_time").and_then(|time| time.parse().ok()).unwrap_or(0.0);
+        if container == AVI {
+            // Its frames are in the places at which they are decoded: their times count those that are kept back, and those of its sound do not.
+            info.file_start += info.delay as f64 * info.time_base.to_f64();
+        }
         info.metadata = metadata(format);
         info.timecode = timecode(&streams[number], streams, format);
         info.cut = cut;

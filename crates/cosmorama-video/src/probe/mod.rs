@@ -83,7 +83,7 @@ pub struct VideoInfo {
     pub left_out: u64,
     /// Bytes that the file lacks by its own account.
     pub cut: Option<CutShort>,
-    /// Seconds at which the file begins, from which ffmpeg counts when it seeks; in AVI, those of the first frame.
+    /// Seconds at which the file begins, from which ffmpeg counts when it seeks, by the times of the frames.
     pub(crate) file_start: f64,
     /// Frames at the beginning that take after others before them, which were cut off; decoders make them up, or give none.
     pub(crate) early: u64,

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use cosmorama_io::pending::Unfinished;
-use cosmorama_video::{Carried, Ffmpeg, Ratio, StreamKind, VideoInfo, WriteSettings};
+use cosmorama_video::{Carried, Ffmpeg, Ratio, ReadOptions, StreamKind, VideoInfo, WriteSettings};
 
-use crate::common::{ffmpeg, moving, probed, run};
+use crate::common::{ffmpeg, frames, moving, probed, run};
 use crate::writing::write;
 
 const CHAPTERS: &str = ";FFMETADATA1\ntitle=Sky\n[CHAPTER]\nTIMEBASE=1/1000\nSTART=0\nEND=1000\ntitle=One\n[CHAPTER]\n\
@@ -100,6 +100,46 @@ fn a_part_has_all_its_sound_where_it_is_coded_anew() {
         let lengths = probed(&path, "-select_streams a -show_entries packet=duration_time -of csv=p=0");
         let seconds: f64 = lengths.split([',', '\n']).filter_map(|length| length.trim().parse::<f64>().ok()).sum();
         assert!((seconds - expected).abs() < 0.12, "{name}: {seconds} of {expected} s");
+    }
+}
+
+/// Seconds of a file at which its sound is loud first.
+fn click(path: &Path) -> f64 {
+    let start = probed(path, "-select_streams a -show_entries stream=start_time -of csv=p=0");
+    let start: f64 = start.lines().find_map(|line| line.trim_end_matches(',').parse().ok()).unwrap();
+    let bytes = run(&format!("-i {} -map 0:a -ac 1 -ar 48000 -f f32le", path.display()), Path::new("pipe:1"));
+    let samples = bytes.chunks_exact(4).map(|sample| f32::from_le_bytes(sample.try_into().unwrap()));
+    let before = samples.take_while(|sample| sample.abs() < 0.4).count();
+    assert!(4 * before < bytes.len(), "a click");
+    start + before as f64 / 48000.0
+}
+
+/// A film that was cut out begins behind frames that are left out, and its sound before them. In AVI, frames and sound count from elsewhere.
+#[test]
+fn sound_keeps_to_its_frames_where_the_first_are_cut_off() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let x264 = "libx264 -bf 3 -x264-params open-gop=1:keyint=12:min-keyint=12:scenecut=0";
+    let mpeg4 = "mpeg4 -bf 2 -g 12 -sc_threshold 1000000000";
+    let (film, cut) = (folder.path().join("film"), folder.path().join("cut"));
+    for (container, codec) in [("avi", x264), ("avi", mpeg4), ("mkv", mpeg4)] {
+        let [film, cut] = [&film, &cut].map(|path| path.with_extension(container));
+        let sound = "-f lavfi -i aevalsrc='if(between(t,2,2.02),0.9,0)':s=48000:d=4";
+        run(&format!("{} {sound} -c:v {codec} -c:a pcm_s16le", moving(64, 32, "25", 100)), &film);
+        run(&format!("-i {} -ss 0.5 -c copy", film.display()), &cut);
+        for (source, part) in [(&film, 1.0..3.0), (&cut, 0.0..3.04), (&cut, 1.0..2.0)] {
+            let info = ffmpeg.probe(source).unwrap();
+            let left = frames(&ffmpeg, source, ReadOptions::default()).unwrap().len();
+            assert_eq!((info.left_out > 0, left), if source == &cut { (true, 76) } else { (false, 100) }, "{codec}");
+            let expected = 2.0 - (100 - left) as f64 / 25.0 - part.start;
+            let written = folder.path().join("written.mkv");
+            let count = ((part.end - part.start) * 25.0).round() as u32;
+            write(&ffmpeg, &written, &settings(&info, Some(part.clone())), count).unwrap();
+            let found = click(&written);
+            // AVI counts by frames.
+            let is_near = (found - expected).abs() < 0.03;
+            assert!(is_near, "{container} {codec} {part:?}: {found} s instead of {expected}");
+        }
     }
 }
 
