@@ -99,13 +99,12 @@ impl MemoryBudget {
         Self { bytes: self.bytes.saturating_sub(taken), ..self }
     }
 
-    /// Returns the budget that is left beside ffmpeg's codecs. A limit of addresses is each program's own, and a small one is for pictures
-    /// alone.
+    /// Returns the budget that is left beside ffmpeg's codecs. A limit of addresses is each program's own.
     ///
     /// # Errors
     /// When they hold more; `why` says of what.
     pub(crate) fn beside_codecs(self, codecs: u64, why: &str) -> Result<Self> {
-        if self.is_of_addresses || self.bytes < SMALL {
+        if self.is_of_addresses || codecs == 0 {
             return Ok(self);
         }
         self.allow(codecs, "ffmpeg, which reads and makes films,", why)?;

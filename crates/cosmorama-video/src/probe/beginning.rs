@@ -42,6 +42,25 @@ impl Ffmpeg {
         Ok(Some(listed.behind_cut_off().unwrap_or(Beginning::whole(first))))
     }
 
+    /// Finds out whether the first coded frame of H.264 is a key frame that does not make those before it needless (IDR).
+    pub(super) fn begins_open(&self, info: &VideoInfo) -> Result<bool, VideoError> {
+        /// Bytes of its packet, before whose end the first slice begins.
+        const ENOUGH: usize = 1 << 16;
+        let index = info.stream.to_string();
+        let entries = ["-select_streams", &index, "-show_entries", "packet=data", "-show_data"];
+        let first = ["-read_intervals", "%+#1", "-of", "default=nk=1:nw=1"];
+        let mut bytes = Vec::new();
+        self.ffprobe_lines(&info.path, &[&entries[..], &first].concat(), |line| {
+            if bytes.len() < ENOUGH {
+                bytes.extend(dumped(line));
+            }
+            Ok(())
+        })?;
+        // The kinds of units of H.264 are in its table 7-1: slices are 1 to 5, and 5 those of an IDR picture.
+        let mut kinds = units(&bytes).map(|unit| unit & 31);
+        Ok(kinds.find(|kind| (1..=5).contains(kind)).is_some_and(|kind| kind != 5))
+    }
+
     /// Counts the frames that are shown before the first key frame, where the video does not begin with one.
     pub(super) fn early_frames(&self, info: &VideoInfo) -> Result<u64, VideoError> {
         /// Longer groups of pictures are of encoders that refresh them part by part, and make no key frames.
@@ -151,8 +170,45 @@ impl FirstDecoded {
     }
 }
 
+/// Returns the bytes of a line such as `00000010: 48b7 962c  H..,` of ffprobe's dump.
+fn dumped(line: &str) -> impl Iterator<Item = u8> {
+    let words = line.split_once(": ").map_or("", |(_, rest)| rest).split("  ").next().unwrap_or_default();
+    let bytes = words.split(' ').flat_map(|word| word.as_bytes().chunks(2));
+    bytes.map_while(|pair| u8::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok())
+}
+
+/// Returns the first byte of each unit of H.264 in a packet. They begin with marks (annex B), or tell their length.
+fn units(packet: &[u8]) -> Box<dyn Iterator<Item = u8> + '_> {
+    if packet.starts_with(&[0, 0, 1]) || packet.starts_with(&[0, 0, 0, 1]) {
+        return Box::new(packet.windows(4).filter(|bytes| bytes.starts_with(&[0, 0, 1])).map(|bytes| bytes[3]));
+    }
+    let mut rest = packet;
+    Box::new(std::iter::from_fn(move || {
+        let (length, content) = rest.split_first_chunk()?;
+        rest = content.get(u32::from_be_bytes(*length) as usize..).unwrap_or_default();
+        content.first().copied()
+    }))
+}
+
 /// Counts the packets without a time that follow the first: Matroska tells none before its beginning.
 fn untimed_behind_first(packets: &[Packet]) -> u64 {
     let is_untimed = |packet: &&Packet| packet.shown.or(packet.decoded).is_none();
     packets.iter().skip(1).take_while(is_untimed).count() as u64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_of_h264_are_found_in_a_dump() {
+        let line = "00000010: 48b7 962c 0a  H..,.";
+        assert_eq!(dumped(line).collect::<Vec<_>>(), [0x48, 0xb7, 0x96, 0x2c, 0x0a]);
+        assert_eq!(dumped("").count() + dumped("N/A").count() + dumped("0: xyz").count(), 0);
+        let marked = [0, 0, 0, 1, 9, 0xf0, 0, 0, 1, 6, 5, 0, 0, 1, 0x65, 1];
+        assert_eq!(units(&marked).collect::<Vec<_>>(), [9, 6, 0x65]);
+        let counted = [0, 0, 0, 2, 6, 5, 0, 0, 0, 1, 0x41, 0xff, 0xff, 0xff, 0xff, 0x65];
+        assert_eq!(units(&counted).collect::<Vec<_>>(), [6, 0x41, 0x65]);
+        assert_eq!(units(&[0, 0, 0]).count(), 0);
+    }
 }

@@ -11,6 +11,7 @@ use super::container::{ASF, AVI, FLV, NUT, begins_anywhere, is_boxes, is_matrosk
 use super::first_frame::FirstFrame;
 use super::packets::CodedStream;
 use super::stream::{Stream, delay, is_statistic, ratio, text};
+use super::timeline::Evenness;
 use super::{Announced, AnnouncedBy, CutShort, OtherStream, Places, StreamKind, Timeline, VideoInfo, structure};
 use crate::ffmpeg::Said;
 use crate::{Ffmpeg, SpatialTags, VideoError};
@@ -50,7 +51,7 @@ impl Ffmpeg {
         let number = streams(&document).iter().position(is_chosen).ok_or_else(no_video)?;
         let container = text(&document["format"], "format_name").unwrap_or_default().to_owned();
         let container = container.as_str();
-        drop_statistics(&mut document, number);
+        drop_copied_tags(&mut document, number, container);
         let tells_start = is_boxes(container) || (is_matroska(container) && cut.is_none());
         let beginning = self.beginning_of(path, container, &document["streams"][number], tells_start);
         if let Some(Beginning { start, .. }) = beginning {
@@ -108,7 +109,15 @@ impl Ffmpeg {
     fn complete(&self, info: &mut VideoInfo) -> Result<(), VideoError> {
         // Matroska tells a rate, whatever the times of its frames.
         if is_matroska(&info.container) && !info.is_variable {
-            info.is_variable = !self.begins_evenly(info)?;
+            let evenness = self.evenness(info)?;
+            if let Evenness::Lacking { first, count } = evenness {
+                info.notes.push(format!(
+                    "of the first places for {} frames a second, it leaves {count} empty, first number {first}: its encoder left frames out, or \
+                     they are lost; its rate is taken to vary",
+                    info.rate
+                ));
+            }
+            info.is_variable = evenness != Evenness::Even;
             // A duration tells no number of frames where their rate varies.
             let is_told = |told: &Announced| told.by == AnnouncedBy::Count || !info.is_variable;
             info.announced = info.announced.filter(is_told);
@@ -125,12 +134,16 @@ impl Ffmpeg {
                 Err(error) => info.notes.push(format!("its spherical tags are not read: {error}")),
             }
         }
+        if is_matroska(&info.container) {
+            info.spatial = info.spatial.map(|told| told.exact_in_matroska(&info.path, info.coded_size));
+        }
         // The messages of H.265 are in the stream itself, and containers need not repeat them.
         if info.colour.is_hdr() && info.hdr.mastering.is_none() {
             let frame = FirstFrame::read(self, info)?;
             info.hdr.mastering = frame.hdr.mastering;
             info.hdr.light = info.hdr.light.or(frame.hdr.light);
         }
+        info.is_open = info.codec == "h264" && info.delay > 0 && (info.leading > 0 || self.begins_open(info)?);
         if begins_anywhere(&info.container) {
             info.early = self.early_frames(info)?;
         }
@@ -196,11 +209,16 @@ fn begin_at(stream: &mut Value, first: i64, container: &str) {
     stream["start_time"] = Value::from(time.to_string());
 }
 
-/// Takes the statistics of mkvmerge out of a stream's tags where ffmpeg wrote the file: it copies those of another, which it cut.
-fn drop_statistics(document: &mut Value, stream: usize) {
+/// Takes out of a stream's tags what ffmpeg copies from another file, which it cut: statistics of mkvmerge, and in other containers also
+/// Matroska's tag of the duration.
+fn drop_copied_tags(document: &mut Value, stream: usize, container: &str) {
     let is_copy = tag(&document["format"], "encoder").is_some_and(|encoder| encoder.starts_with("Lavf"));
-    if let Some(tags) = document["streams"][stream]["tags"].as_object_mut().filter(|_| is_copy) {
-        tags.retain(|name, _| !is_statistic(name));
+    let is_copied = |name: &str| match is_matroska(container) {
+        true => is_copy && is_statistic(name),
+        false => is_statistic(name) || name.eq_ignore_ascii_case("duration"),
+    };
+    if let Some(tags) = document["streams"][stream]["tags"].as_object_mut() {
+        tags.retain(|name, _| !is_copied(name));
     }
 }
 

@@ -89,6 +89,8 @@ pub struct VideoInfo {
     pub(crate) early: u64,
     /// Coded frames, behind the key frame with which the stream begins, that would be shown before the first one that is.
     pub(crate) leading: u64,
+    /// Whether it is H.264 that begins with a key frame of an open group: frames behind it may name others before it, which were cut off.
+    pub(crate) is_open: bool,
     /// Frames that a decoder keeps back, to give them in the order in which they are shown.
     pub(crate) delay: u64,
     /// Statements about the file that a user should hear, such as "no matrix is said; taken for BT.709"; a sentence each.

@@ -114,6 +114,7 @@ impl<'a> Stream<'a> {
             file_start: 0.0,
             early: 0,
             leading: 0,
+            is_open: false,
             left_out: 0,
             delay: delay(value),
             notes: Vec::new(),

@@ -90,6 +90,42 @@ fn nearest(times: &[i64], time: i64) -> usize {
     }
 }
 
+/// How frames follow each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Evenness {
+    /// At a rate.
+    Even,
+    /// In places for a rate, a few of which are empty.
+    Lacking {
+        /// Number of the first empty place.
+        first: u64,
+        /// Number of empty places.
+        count: u64,
+    },
+    /// At no rate.
+    Varying,
+}
+
+impl Evenness {
+    fn of(times: &[i64], even: &Timeline) -> Self {
+        let frames: Vec<u64> = times.iter().map(|time| even.frame(*time)).collect();
+        let Some((first, _)) = (0..frames.len() as u64).zip(&frames).find(|(place, frame)| place != *frame) else {
+            return Self::Even;
+        };
+        let count = frames.last().map_or(0, |last| (last + 1).saturating_sub(frames.len() as u64));
+        let is_placed = |time: i64| {
+            let frame = even.frame(time);
+            let near = even.time(frame).zip(even.time(frame + 1));
+            near.is_some_and(|(place, next)| 8 * place.abs_diff(time) <= place.abs_diff(next))
+        };
+        let is_lacking = frames.is_sorted_by(|a, b| a < b) && times.iter().all(|time| is_placed(*time));
+        match is_lacking && 10 * count <= frames.len() as u64 {
+            true => Self::Lacking { first, count },
+            false => Self::Varying,
+        }
+    }
+}
+
 impl Ffmpeg {
     /// Finds the times of all frames. For a video of variable rate this reads the whole file, without decoding it.
     ///
@@ -121,7 +157,7 @@ impl Ffmpeg {
     }
 
     /// Finds out whether the first hundred frames follow each other at the rate that is told.
-    pub(super) fn begins_evenly(&self, info: &VideoInfo) -> Result<bool, VideoError> {
+    pub(super) fn evenness(&self, info: &VideoInfo) -> Result<Evenness, VideoError> {
         /// Frames at the end of those that are read, or that are left of a cut file, before which others may come.
         const UNSURE: usize = 20;
         let stream = CodedStream::of(info);
@@ -129,7 +165,7 @@ impl Ffmpeg {
         let is_whole = times.len() < 100 && info.cut.is_none();
         let sure = times.len().saturating_sub(if is_whole { 0 } else { UNSURE });
         let even = Timeline::Even { start: info.start, time_base: info.time_base, rate: info.rate };
-        Ok(times[..sure].iter().zip(0..).all(|(time, frame)| even.frame(*time) == frame))
+        Ok(Evenness::of(&times[..sure], &even))
     }
 
     /// Reads the times of all coded frames that are shown, in their order.
@@ -163,6 +199,23 @@ mod tests {
         assert_eq!((listed.time(4), listed.frame(1000), listed.frame(-9)), (None, 3, 0));
         // ffmpeg guesses the times of the last, perhaps half a frame too early.
         assert_eq!(listed.frame(5), 1, "between 0 and 10");
+    }
+
+    #[test]
+    fn a_few_places_that_are_empty_are_no_other_rate() {
+        let time_base = Ratio::parse("1/1000").unwrap();
+        let even = Timeline::Even { start: 7, time_base, rate: Ratio::parse("24000/1001").unwrap() };
+        let times = |places: &[u64]| places.iter().filter_map(|place| even.time(*place)).collect::<Vec<_>>();
+        let all: Vec<u64> = (0..100).collect();
+        assert_eq!(Evenness::of(&times(&all), &even), Evenness::Even);
+        let without = |lost: &[u64]| all.iter().copied().filter(|place| !lost.contains(place)).collect::<Vec<_>>();
+        let lacking = Evenness::of(&times(&without(&[41, 60])), &even);
+        assert_eq!(lacking, Evenness::Lacking { first: 41, count: 2 });
+        let half: Vec<u64> = all.iter().map(|place| 2 * place).collect();
+        assert_eq!(Evenness::of(&times(&half), &even), Evenness::Varying);
+        let mut late = times(&without(&[41]));
+        late[70] += 15;
+        assert_eq!(Evenness::of(&late, &even), Evenness::Varying);
     }
 
     #[test]

@@ -43,7 +43,7 @@ pub(super) const MARGIN: f64 = 0.5;
 impl Start {
     /// Returns where decoding begins for a frame to be the first.
     pub(super) fn at(first: u64, info: &VideoInfo, timeline: &Timeline) -> Self {
-        let is_partial = first > 0 || info.leading > 0;
+        let is_partial = first > 0 || info.leading > 0 || info.is_open;
         let Some(time) = is_partial.then(|| timeline.time(first)).flatten() else { return Self::default() };
         let half = match timeline {
             Timeline::Even { time_base, rate, .. } => rate.inverse().rescale(1, *time_base) / 2,
@@ -262,24 +262,17 @@ impl Decoder {
 /// Returns what ffmpeg takes for damage: that is an error, and its frame is missed; otherwise it is painted over.
 fn detection(info: &VideoInfo) -> &'static str {
     match info.codec.as_str() {
-        // Frames that were cut off are errors, and so all that take after them, which need them in name only.
-        "h264" if info.leading > 0 => "crccheck+bitstream+buffer+aggressive",
+        // Frames that were cut off are errors, and so all that name them, which need them in name only.
+        "h264" if info.is_open => "crccheck+bitstream+buffer+aggressive",
         // Bits that are left over behind a slice, too. Decoders of other codecs take more for damage then, which may be none.
         "h264" => "crccheck+bitstream+buffer+explode+aggressive",
         _ => "crccheck+bitstream+buffer+explode",
     }
 }
 
-/// Returns whether ffmpeg's decoder of H.264 says that frames lack others, and not that they are damaged (`libavcodec/h264_refs.c`).
+/// Returns whether ffmpeg's decoder of H.264 says that a frame does not find others that it gives up (`libavcodec/h264_refs.c`).
 fn is_of_cut_off(text: &str) -> bool {
-    [
-        "mmco: unref short failure",
-        "number of reference frames",
-        "Missing reference picture",
-        "reference picture missing",
-    ]
-    .iter()
-    .any(|lacking| text.contains(lacking))
+    ["mmco: unref short failure", "number of reference frames"].iter().any(|lacking| text.contains(lacking))
 }
 
 /// Returns whether ffmpeg gives damaged frames on, painted over, with a message before each and no other sign.

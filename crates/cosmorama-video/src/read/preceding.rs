@@ -101,9 +101,11 @@ impl Looked<'_> {
         {
             return Ok(false);
         }
-        let numbers = self.around(missing.end)?.into_iter().map(|coded| timeline.frame(coded.time));
-        let mut behind = numbers.skip_while(|number| *number != missing.end).peekable();
-        Ok(behind.peek().is_some() && behind.all(|number| number <= missing.end && !missing.contains(&number)))
+        let numbers: Vec<u64> = self.around(missing.end)?.into_iter().map(|coded| timeline.frame(coded.time)).collect();
+        let mut behind = numbers.iter().skip_while(|number| **number != missing.end).peekable();
+        let is_last =
+            behind.peek().is_some() && behind.all(|number| *number <= missing.end && !missing.contains(number));
+        Ok(is_last && ends_as_it_began(&numbers))
     }
 
     /// Returns the number of the last frame, if the file lists or counts them: a duration may be rounded.
@@ -132,15 +134,16 @@ impl Looked<'_> {
 
     /// Reads what is said of the coded frames around one, from a while before.
     fn around(self, frame: u64) -> Result<Vec<CodedFrame>, VideoError> {
-        /// Seconds behind it, within which frames that are decoded before it are shown.
-        const BEHIND: f64 = 4.0;
+        /// Seconds behind it, within which frames that are decoded before it are shown; and frames, where these are slow.
+        const BEHIND: (f64, f64) = (4.0, 40.0);
         /// Seconds before it: the seek ends at a key frame before that.
         const BEFORE: f64 = 2.0;
         let Some(time) = self.timeline.time(frame).filter(|_| !self.info.is_bare()) else {
             return Ok(Vec::new());
         };
         let seconds = time as f64 * self.info.time_base.to_f64();
-        let part = format!("{:.3}%{:.3}", (seconds - MARGIN - BEFORE).max(0.0), (seconds + BEHIND).max(0.0));
+        let behind = BEHIND.0.max(BEHIND.1 / self.info.rate.to_f64());
+        let part = format!("{:.3}%{:.3}", (seconds - MARGIN - BEFORE).max(0.0), (seconds + behind).max(0.0));
         self.ffmpeg.coded_frames(self.info, &["-read_intervals", &part])
     }
 
@@ -179,6 +182,22 @@ impl Damage {
         let traced = all.into_iter().find(|traced| options.looks_at(*traced))?;
         Some(Beside { faults, traced })
     }
+}
+
+/// Returns whether the last frames, by their numbers in the order in which they are decoded, are the first of such as came before: of one frame,
+/// and those that are shown between it and the one shown last. Where one is lost from among them, they are not.
+fn ends_as_it_began(numbers: &[u64]) -> bool {
+    let mut groups: Vec<(u64, Vec<u64>)> = Vec::new();
+    for number in numbers {
+        match groups.last_mut() {
+            Some((end, group)) if number <= end => group.push(*end - number),
+            _ => groups.push((*number, Vec::new())),
+        }
+    }
+    let mut before: Vec<_> = groups.windows(2).map(|pair| (pair[1].0 - pair[0].0, &pair[1].1)).collect();
+    let Some((size, end)) = before.pop() else { return true };
+    before.retain(|(other, group)| *other == size && group.len() as u64 + 1 == size);
+    before.is_empty() || before.iter().any(|(_, group)| group.starts_with(end))
 }
 
 /// Returns the frames of a fault.

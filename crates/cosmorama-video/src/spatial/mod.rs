@@ -1,6 +1,7 @@
 //! Tags that say that a video shows a whole world, or half of it, to one eye or to two.
 
 mod boxes;
+mod matroska;
 
 use std::path::Path;
 
@@ -86,6 +87,13 @@ impl SpatialTags {
             projection: Some(SphericalProjection::Equirect(bounds)),
             pose: SphericalPose::default(),
         }
+    }
+
+    /// Returns the tags of a Matroska file with its own bounds, where ffprobe tells them in whole pixels.
+    pub(crate) fn exact_in_matroska(self, path: &Path, size: (usize, usize)) -> Self {
+        let Some(SphericalProjection::Equirect(told)) = self.projection else { return self };
+        let exact = matroska::bounds(path, told, size).unwrap_or(told);
+        Self { projection: Some(SphericalProjection::Equirect(exact)), ..self }
     }
 
     /// Reads the boxes of the first video track of an MP4 or MOV file; `None` if it has none.

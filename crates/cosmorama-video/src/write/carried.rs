@@ -6,12 +6,12 @@ use std::ffi::OsString;
 use super::{Carried, Container, FrameTimes, WriteSettings, timecode};
 use crate::ffmpeg::{input_limits, url};
 use crate::probe::is_boxes;
-use crate::{OtherStream, StreamKind, VideoInfo};
+use crate::{OtherStream, StreamKind, Version, VideoInfo};
 
 /// Arguments for what is copied.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Plan {
-    /// Arguments of the second input, and of the third.
+    /// Arguments of the inputs behind the first.
     pub(super) input: Vec<OsString>,
     /// Arguments of the output.
     pub(super) output: Vec<String>,
@@ -37,8 +37,25 @@ const INSTANT: f64 = 1e-3;
 /// Seconds below which a shift is a rounding error.
 const NOTHING: f64 = 1e-4;
 
+/// Seconds below which nobody sees that subtitles come late.
+const UNSEEN: f64 = 0.1;
+
+/// First version of ffmpeg that leaves subtitles out by their times.
+const DROPS: Version = Version { major: 5, minor: 0 };
+
+/// Place of subtitles that are coded anew.
+#[derive(Clone, Copy)]
+enum Recoded {
+    /// They begin with the sound.
+    Along,
+    /// They begin with the file, an instant before the pictures.
+    FromFile,
+    /// They begin with the part, without those that are shown before.
+    WithPart,
+}
+
 impl Plan {
-    pub(super) fn of(settings: &WriteSettings, container: Container) -> Self {
+    pub(super) fn of(settings: &WriteSettings, container: Container, version: Version) -> Self {
         let Some(Carried { info, seconds }) = &settings.source else { return Self::default() };
         let mut plan = Self::default();
         // Seconds are counted from the first frame, by ffmpeg from the file's beginning.
@@ -59,16 +76,23 @@ impl Plan {
             plan.output.extend(["-t".to_owned(), format!("{:.6}", length - shorter)]);
         }
         plan.input.extend([OsString::from("-i"), url(&info.path)]);
+        let recoded = match seconds {
+            _ if !is_later => Some(Recoded::Along),
+            None if start < UNSEEN => Some(Recoded::FromFile),
+            _ => (version >= DROPS).then_some(Recoded::WithPart),
+        };
         for stream in &info.others {
             // MOV keeps the names of its chapters in a stream.
             let are_chapters = stream.codec == "bin_data" && info.chapters > 0;
             if !are_chapters {
-                plan.add(stream, container, is_later);
+                plan.add(stream, (info, container), recoded);
             }
         }
         plan.fields = container.has_boxes() && is_boxes(&info.container);
-        let chapters = if is_later && info.chapters > 0 { plan.add_chapters(info, start) } else { "1" };
-        plan.output.extend(["-map_metadata", "1", "-map_chapters", chapters].map(str::to_owned));
+        // They are taken from an instant later on, without one that ends where the part begins.
+        let has_earlier = is_later && info.chapters > 0;
+        let chapters = if has_earlier { plan.add_input(info, Some(start + INSTANT)) } else { 1 };
+        plan.output.extend(["-map_metadata", "1", "-map_chapters", &chapters.to_string()].map(str::to_owned));
         for name in ["major_brand", "minor_version", "compatible_brands"] {
             plan.output.extend(["-metadata".to_owned(), format!("{name}=")]);
         }
@@ -76,21 +100,21 @@ impl Plan {
         plan
     }
 
-    /// Adds the file once more, for its chapters alone, and returns the input's number: they are taken from an instant later on, without one
-    /// that ends where the part begins.
-    fn add_chapters(&mut self, info: &VideoInfo, start: f64) -> &'static str {
+    /// Adds the file once more, from some seconds on, and returns the input's number.
+    fn add_input(&mut self, info: &VideoInfo, start: Option<f64>) -> usize {
         self.input.extend(input_limits().map(OsString::from));
-        self.input.extend(["-ss".to_owned(), format!("{:.6}", start + INSTANT)].map(OsString::from));
+        if let Some(start) = start {
+            self.input.extend(["-ss".to_owned(), format!("{start:.6}")].map(OsString::from));
+        }
         self.input.extend([OsString::from("-i"), url(&info.path)]);
-        "2"
+        self.input.iter().filter(|argument| *argument == "-i").count()
     }
 
-    fn add(&mut self, stream: &OtherStream, container: Container, is_later: bool) {
+    fn add(&mut self, stream: &OtherStream, (info, container): (&VideoInfo, Container), recoded: Option<Recoded>) {
         let answer = match stream.kind {
             StreamKind::Audio => sound(&stream.codec, container),
             StreamKind::Subtitle => match subtitle(&stream.codec, container) {
-                // ffmpeg would begin with those that are shown before, and delay the pictures until then.
-                Answer::Code(_) if is_later => Answer::Leave,
+                Answer::Code(_) if recoded.is_none() => Answer::Leave,
                 answer => answer,
             },
             StreamKind::Video | StreamKind::Data => Answer::Leave,
@@ -120,7 +144,17 @@ impl Plan {
                 encoder
             }
         };
-        self.output.extend(["-map".to_owned(), format!("1:{}", stream.index), format!("-c:{at}"), encoder.to_owned()]);
+        let recoded = recoded.filter(|_| stream.kind == StreamKind::Subtitle && encoder != "copy");
+        let input = match recoded {
+            Some(Recoded::FromFile) => self.add_input(info, None),
+            _ => 1,
+        };
+        if let Some(Recoded::WithPart) = recoded {
+            // With those that are shown before, ffmpeg would delay the pictures until then.
+            self.output.extend([format!("-bsf:{at}"), "noise=drop=lt(pts\\,0)".to_owned()]);
+        }
+        let map = format!("{input}:{}", stream.index);
+        self.output.extend(["-map".to_owned(), map, format!("-c:{at}"), encoder.to_owned()]);
         if matches!(encoder, "aac" | "libopus") {
             self.output.extend([format!("-b:{at}"), format!("{}k", 96 * stream.channels.clamp(1, 16))]);
         }

@@ -71,7 +71,7 @@ impl VideoWriter {
         arguments::check(&settings.arguments)?;
         let ffmpeg = &ffmpeg.clone().ending_with(unfinished);
         let (container, codec, encoder) = chosen(ffmpeg, path, &settings)?;
-        let plan = Plan::of(&settings, container);
+        let plan = Plan::of(&settings, container, ffmpeg.version());
         let pending = Pending::create(path, unfinished)?;
         let output = pending.path();
         let parts = Parts { settings: &settings, container, codec, encoder: &encoder, plan: &plan, output };

@@ -103,6 +103,39 @@ fn a_part_has_all_its_sound_where_it_is_coded_anew() {
     }
 }
 
+/// Pictures of Matroska begin an instant after sound that is coded with a delay. Subtitles that the output cannot hold as they are become its own
+/// also then, and those of a part begin with it.
+#[test]
+fn subtitles_are_coded_anew_whenever_the_pictures_begin() {
+    let Some(ffmpeg) = ffmpeg().filter(|ffmpeg| ffmpeg.version().major >= 5) else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let [film, words] = ["film.mkv", "words.srt"].map(|name| folder.path().join(name));
+    std::fs::write(&words, SUBTITLES).unwrap();
+    let inputs = format!("-f lavfi -i sine=duration=2 -i {}", words.display());
+    run(&format!("{} {inputs} -map 0 -map 1 -map 2 -c:v libx264 -c:a aac -c:s srt", moving(64, 32, "25", 50)), &film);
+    let info = ffmpeg.probe(&film).unwrap();
+    for (name, codec) in [("a.mp4", "mov_text"), ("a.mov", "mov_text"), ("a.webm", "webvtt")] {
+        for (part, begins) in [(None, &[0.2, 1.2][..]), (Some(1.0..2.0), &[0.2])] {
+            let path = folder.path().join(name);
+            let count = part.as_ref().map_or(50, |_| 25);
+            let written = write(&ffmpeg, &path, &settings(&info, part), count).unwrap();
+            assert!(written.notes.iter().all(|note| note.contains("coded anew")), "{name}: {:?}", written.notes);
+            let entries = "-show_entries stream=codec_name:packet=pts_time,size -of csv=p=0";
+            let told = probed(&path, &format!("-select_streams s {entries}"));
+            let lines: Vec<&str> = told.lines().filter(|line| !line.is_empty()).collect();
+            let (packets, codecs): (Vec<&str>, Vec<&str>) = lines.iter().partition(|line| line.contains(','));
+            assert_eq!(codecs, [codec], "{name}");
+            // Between its texts, MP4 has empty ones, of two bytes.
+            let texts = packets.iter().map(|line| line.split_once(',').unwrap()).filter(|(_, size)| *size != "2");
+            let times: Vec<f64> = texts.map(|(time, _)| time.parse().unwrap()).collect();
+            let are_near = times.iter().zip(begins).all(|(a, b)| (a - b).abs() < 0.04);
+            assert!(times.len() == begins.len() && are_near, "{name}: {times:?}");
+            let pictures = probed(&path, "-select_streams v -show_entries packet=pts_time -of csv=p=0");
+            assert!(pictures.lines().next().unwrap().trim_end_matches(',').parse::<f64>().unwrap() < 0.01, "{name}");
+        }
+    }
+}
+
 /// Seconds of a file at which its sound is loud first.
 fn click(path: &Path) -> f64 {
     let start = probed(path, "-select_streams a -show_entries stream=start_time -of csv=p=0");

@@ -1,7 +1,7 @@
 //! Frames by their numbers.
 
 use cosmorama::raster::{Channels, Depth, Samples};
-use cosmorama_video::{AnnouncedBy, FrameCondition, ReadOptions, StreamKind, VideoError, VideoReader};
+use cosmorama_video::{AnnouncedBy, FrameCondition, ReadOptions, StreamKind, VideoError, VideoFrame, VideoReader};
 
 use crate::common::{ffmpeg, frames, moving, of, probed, raw, run};
 
@@ -212,6 +212,49 @@ fn films_that_were_cut_out_end_with_their_last_frame() {
         }
     }
     assert!(lacking > 0, "none is lacking anywhere");
+}
+
+/// Behind a key frame of an open group that none comes before, H.264 names frames that were cut off, and takes after none of them.
+#[test]
+fn films_that_begin_with_an_open_group_are_whole() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let film = folder.path().join("a.mkv");
+    let x264 = "-c:v libx264 -bf 3 -b_strategy 0 -x264-params open-gop=1:keyint=21:min-keyint=21:scenecut=0";
+    run(&format!("{} {x264} -threads 2", moving(160, 80, "25", 100)), &film);
+    let all = frames(&ffmpeg, &film, ReadOptions::default()).unwrap();
+    for container in ["mkv", "mp4", "flv"] {
+        let cut = folder.path().join(format!("b.{container}"));
+        run(&format!("-ss 1.1 -to 2.1 -i {} -c copy", film.display()), &cut);
+        let left = frames(&ffmpeg, &cut, ReadOptions::default()).unwrap();
+        assert!(left.iter().all(|frame| frame.condition == FrameCondition::Whole), "{container}");
+        let mut originals = all.iter();
+        let mut is_next = |frame: &VideoFrame| originals.any(|original| original.image == frame.image);
+        let is_repeated = |at: usize| at > 0 && left[at].image == left[at - 1].image;
+        assert!((0..left.len()).all(|at| is_repeated(at) || is_next(&left[at])), "{container}");
+        // It begins with frame 21, or 28 where the edit list leaves out what is not asked for.
+        assert!(left.len() >= 25 && (left[0].image == all[21].image || left[0].image == all[28].image), "{container}");
+        let part = frames(&ffmpeg, &cut, of(18, 20)).unwrap();
+        assert!(part == left[18..=20], "{container}");
+    }
+}
+
+/// The end of a film that was cut out lacks the last of its coded frames, and no others.
+#[test]
+fn a_frame_that_is_lost_near_the_end_is_no_cut() {
+    let Some(ffmpeg) = ffmpeg().filter(|ffmpeg| ffmpeg.version().major >= 5) else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let film = folder.path().join("a.mkv");
+    for (rate, number, expected) in [("25", 146, 146), ("1", 112, 111)] {
+        run(&format!("{} -c:v libx264 -bf 3 -b_strategy 0 -g 60 -threads 2", moving(64, 32, rate, 149)), &film);
+        for container in ["mkv", "flv"] {
+            let lost = folder.path().join(format!("b.{container}"));
+            run(&format!("-i {} -c copy -bsf:v noise=drop=eq(n\\,{number})", film.display()), &lost);
+            let read = frames(&ffmpeg, &lost, ReadOptions::default()).map(|frames| frames.len());
+            let is_told = matches!(read, Err(VideoError::DamagedFrame { frame, .. }) if frame == expected);
+            assert!(is_told, "{container} {rate}: {read:?}");
+        }
+    }
 }
 
 /// Other programs write no tag of the stream's duration into Matroska: that of the file begins before the first frame.

@@ -54,14 +54,19 @@ fn codecs_of_films_take_their_part_of_the_memory() {
     super::films::film(&bench, "film.mkv", 3);
     let args = ["convert", "film.mkv", "out_#.png", "--from", "equirect", "--to", "fulldome", "--size", "64"];
     let layers =
-        ["--backdrop", "film.mkv", "--backdrop-from", "equirect", "--memory", "66M", "--threads", "2", "--json"];
+        ["--backdrop", "film.mkv", "--backdrop-from", "equirect", "--memory", "160M", "--threads", "2", "--json"];
     let report: Value = serde_json::from_str(&bench.succeed(&[&args[..], &layers].concat())).unwrap();
-    assert!(report["codec_memory_bytes"].as_u64().unwrap() > 24 << 20, "{report}");
+    assert!(report["codec_memory_bytes"].as_u64().unwrap() > 72 << 20, "{report}");
     // Of a film that is verified, its decoder.
     let source = "testsrc2=size=2048x1024:rate=25,trim=end_frame=2";
     ffmpeg(&bench, &["-f", "lavfi", "-i", source, "-c:v", "libx264", "-preset", "ultrafast", "large.mp4"]);
-    let told = bench.fail(1, &["verify", "large.mp4", "--memory", "66M"]);
+    let told = bench.fail(1, &["verify", "large.mp4", "--memory", "90M"]);
     assert_says(&told, &["of memory with ffmpeg's codecs, which hold about"]);
+    // Less memory does not permit more.
+    for (memory, only) in [("40M", "only 40.0 MiB"), ("4M", "only 4.0 MiB")] {
+        let told = bench.fail(1, &[&args[..], &["-y", "--memory", memory]].concat());
+        assert_says(&told, &["ffmpeg", only]);
+    }
 }
 
 /// The estimate that is told, and the most memory that was held, in MiB.

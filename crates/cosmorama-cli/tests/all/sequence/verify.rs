@@ -512,3 +512,24 @@ fn a_cut_film_that_counts_no_frames_is_told_to_be_cut() {
     let number = |name: &str| report[name].as_u64().unwrap();
     assert!(number("whole") < number("frames") && number("frames") < 120, "{report}");
 }
+
+/// The end of a film that was cut out lacks frames before its last one, whether its container counts them or not.
+#[cfg(feature = "video")]
+#[test]
+fn a_film_that_was_cut_out_has_its_last_frame_in_every_container() {
+    if !has_ffmpeg() {
+        return;
+    }
+    let bench = Bench::new();
+    let pictures = ["-f", "lavfi", "-i", "testsrc2=size=64x32:rate=25:duration=4"];
+    let sound = ["-f", "lavfi", "-i", "sine=duration=4", "-c:v", "libx264", "-bf", "8", "-b_strategy", "0"];
+    ffmpeg(&bench, &[&pictures[..], &sound, &["-threads", "2", "-c:a", "mp3", "film.mkv"]].concat());
+    let counts = ["mp4", "flv", "nut", "ts"].map(|container| {
+        let cut = format!("cut.{container}");
+        ffmpeg(&bench, &["-i", "film.mkv", "-t", "3.24", "-c", "copy", &cut]);
+        let report: Value = serde_json::from_str(&text(&bench.run(&["verify", &cut, "--json"]).stdout)).unwrap();
+        assert!(!report.to_string().contains("damaged"), "{container}: {report}");
+        report["frames"].as_u64().unwrap()
+    });
+    assert!(counts[0] > 81 && counts == [counts[0]; 4], "{counts:?}");
+}

@@ -76,13 +76,13 @@ impl MemoryBudget {
         self.with_program(needs) <= self.bytes
     }
 
-    /// Returns the bytes of a frame and of the program, unless both are few. Of addresses there is no room beside: a third of the
+    /// Returns the bytes of a frame and of the program, unless both are few and no film is among them. Of addresses there is no room beside: a third of the
     /// program has its own already.
     fn with_program(self, needs: FrameNeeds) -> u64 {
         let program = program_bytes(rayon::current_num_threads(), needs.made());
         let all = with_reserve(needs.peak()).saturating_add(program);
         match self.is_of_addresses {
-            _ if all >= SMALL => all,
+            _ if all >= SMALL || self.codecs > 0 => all,
             true => all - program / 3,
             false => needs.peak(),
         }

@@ -34,7 +34,8 @@ fn counted(ffmpeg: &Ffmpeg, info: &VideoInfo, damaged: Damaged) -> Result<u64, V
     let coded = times.frames().unwrap_or_default();
     let last = coded.checked_sub(1).and_then(|last| times.time(last));
     let numbered = || -> Result<u64, VideoError> { Ok(ffmpeg.timeline(info)?.frame(last.unwrap_or(0)) + 1) };
-    if hides_frames(info, announced.unwrap_or(coded)) {
+    // Where a film without a number was cut out, its end may lack frames before its last.
+    if announced.is_none() || hides_frames(info, announced.unwrap_or(coded)) {
         return Ok(numbered()?.max(coded));
     }
     let Some(frames) = announced.filter(|frames| coded < *frames) else { return Ok(coded) };

@@ -165,7 +165,9 @@ fn text_of(tags: &SpatialTags, size: (usize, usize)) -> Option<String> {
         SphericalProjection::Equirect(bounds) if middle_part(bounds).is_none() => window(bounds, tags.stereo, size),
         SphericalProjection::Equirect(bounds) => {
             let [horizontal, vertical] = middle_part(bounds)?;
-            let (hfov, vfov) = (360.0 * horizontal, 180.0 * vertical);
+            // A unit of the bounds is a twelfth of a millionth of a degree.
+            let tidy = |degrees: f64| (degrees * 1e6).round() / 1e6;
+            let (hfov, vfov) = (tidy(360.0 * horizontal), tidy(180.0 * vertical));
             let mut keys = Vec::new();
             if horizontal < 1.0 {
                 keys.push(format!("hfov={hfov}"));
