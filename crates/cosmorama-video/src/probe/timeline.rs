@@ -90,7 +90,7 @@ fn nearest(times: &[i64], time: i64) -> usize {
     }
 }
 
-/// How frames follow each other.
+/// Way in which frames follow each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Evenness {
     /// At a rate.
