@@ -1,8 +1,10 @@
 //! Beginning of a stream: the first frame that can be decoded.
 
+use std::fs::File;
+use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
 
-use super::container::{is_bare_mpeg1, is_matroska};
+use super::container::{FLV, is_bare_mpeg1, is_boxes, is_matroska};
 use super::packets::{CodedStream, FIRST, Packet, timed};
 use super::{Announced, VideoInfo};
 use crate::{Ffmpeg, VideoError};
@@ -16,18 +18,20 @@ pub(super) struct Beginning {
     pub(super) leading: u64,
     /// Leading frames that are to be shown.
     pub(super) left_out: u64,
+    /// Whether it is H.264 whose first key frame does not make frames before it needless.
+    pub(super) is_open: bool,
 }
 
 impl Beginning {
     /// Returns that of a stream that begins with its first coded frame.
     fn whole(start: i64) -> Self {
-        Self { start, leading: 0, left_out: 0 }
+        Self { start, leading: 0, left_out: 0, is_open: false }
     }
 
     /// Returns the beginning at a time, behind coded frames before that, of which some are to be shown, and others that have no time.
     fn behind(coded: &[i64], shown: &[i64], untimed: u64, start: i64) -> Self {
         let before = |times: &[i64]| times.iter().filter(|time| **time < start).count() as u64 + untimed;
-        Self { start, leading: before(coded), left_out: before(shown) }
+        Self { start, leading: before(coded), left_out: before(shown), is_open: false }
     }
 }
 
@@ -39,26 +43,9 @@ impl Ffmpeg {
         let shown = stream.shown_times(&packets);
         let Some(first) = shown.first().copied() else { return Ok(None) };
         let listed = Listed { ffmpeg: self, path, stream, packets, shown };
-        Ok(Some(listed.behind_cut_off().unwrap_or(Beginning::whole(first))))
-    }
-
-    /// Finds out whether the first coded frame of H.264 is a key frame that does not make those before it needless (IDR).
-    pub(super) fn begins_open(&self, info: &VideoInfo) -> Result<bool, VideoError> {
-        /// Bytes of its packet, before whose end the first slice begins.
-        const ENOUGH: usize = 1 << 16;
-        let index = info.stream.to_string();
-        let entries = ["-select_streams", &index, "-show_entries", "packet=data", "-show_data"];
-        let first = ["-read_intervals", "%+#1", "-of", "default=nk=1:nw=1"];
-        let mut bytes = Vec::new();
-        self.ffprobe_lines(&info.path, &[&entries[..], &first].concat(), |line| {
-            if bytes.len() < ENOUGH {
-                bytes.extend(dumped(line));
-            }
-            Ok(())
-        })?;
-        // The kinds of units of H.264 are in its table 7-1: slices are 1 to 5, and 5 those of an IDR picture.
-        let mut kinds = units(&bytes).map(|unit| unit & 31);
-        Ok(kinds.find(|kind| (1..=5).contains(kind)).is_some_and(|kind| kind != 5))
+        let beginning = listed.behind_cut_off().unwrap_or(Beginning::whole(first));
+        let is_open = stream.codec == "h264" && (beginning.leading > 0 || listed.begins_open().unwrap_or(false));
+        Ok(Some(Beginning { is_open, ..beginning }))
     }
 
     /// Counts the frames that are shown before the first key frame, where the video does not begin with one.
@@ -87,6 +74,7 @@ impl VideoInfo {
             // ffmpeg guesses no mean rate of it, and then counts from 0, and not from before the frames that are kept back.
             self.start = self.rate.inverse().rescale(self.delay as i64, self.time_base);
         }
+        self.is_open = beginning.is_some_and(|beginning| beginning.is_open);
         let Some(Beginning { leading, left_out, .. }) = beginning.filter(|beginning| beginning.leading > 0) else {
             return;
         };
@@ -114,6 +102,20 @@ impl Listed<'_> {
             true => self.without_times(),
             false => None,
         }
+    }
+
+    /// Finds out whether the first slice of H.264 is of a key frame that does not make those before it needless (IDR); `None` if it is not there.
+    fn begins_open(&self) -> Option<bool> {
+        /// Bytes of a packet, within which the first slice begins.
+        const ENOUGH: u64 = 1 << 16;
+        let place = self.packets.first().filter(|first| first.is_key)?.byte?;
+        let mut file = File::open(self.path).ok()?;
+        file.seek(SeekFrom::Start(place)).ok()?;
+        let mut bytes = Vec::new();
+        file.take(ENOUGH).read_to_end(&mut bytes).ok()?;
+        // The kinds of units are those of H.264, table 7-1: 1 to 5 are slices, and 5 those of an IDR picture.
+        let mut kinds = units(&bytes, self.stream.container).map(|unit| unit & 31);
+        Some(kinds.find(|kind| (1..=5).contains(kind))? != 5)
     }
 
     /// Finds that of a stream that tells when its frames are shown.
@@ -170,19 +172,17 @@ impl FirstDecoded {
     }
 }
 
-/// Returns the bytes of a line such as `00000010: 48b7 962c  H..,` of ffprobe's dump.
-fn dumped(line: &str) -> impl Iterator<Item = u8> {
-    let words = line.split_once(": ").map_or("", |(_, rest)| rest).split("  ").next().unwrap_or_default();
-    let bytes = words.split(' ').flat_map(|word| word.as_bytes().chunks(2));
-    bytes.map_while(|pair| u8::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok())
-}
-
-/// Returns the first byte of each unit of H.264 in a packet. They begin with marks (annex B), or tell their length.
-fn units(packet: &[u8]) -> Box<dyn Iterator<Item = u8> + '_> {
-    if packet.starts_with(&[0, 0, 1]) || packet.starts_with(&[0, 0, 0, 1]) {
-        return Box::new(packet.windows(4).filter(|bytes| bytes.starts_with(&[0, 0, 1])).map(|bytes| bytes[3]));
-    }
-    let mut rest = packet;
+/// Returns the first byte of each unit of H.264 behind a place at which a packet begins. They tell their length, or begin with marks (annex B).
+fn units<'a>(bytes: &'a [u8], container: &str) -> Box<dyn Iterator<Item = u8> + 'a> {
+    let header = match container {
+        container if is_boxes(container) => 0,
+        // The numbers of the track and the time, and flags.
+        container if is_matroska(container) => 4,
+        // The header of a tag, and of its picture.
+        FLV => 16,
+        _ => return Box::new(bytes.windows(4).filter(|bytes| bytes.starts_with(&[0, 0, 1])).map(|bytes| bytes[3])),
+    };
+    let mut rest = bytes.get(header..).unwrap_or_default();
     Box::new(std::iter::from_fn(move || {
         let (length, content) = rest.split_first_chunk()?;
         rest = content.get(u32::from_be_bytes(*length) as usize..).unwrap_or_default();
@@ -201,14 +201,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn units_of_h264_are_found_in_a_dump() {
-        let line = "00000010: 48b7 962c 0a  H..,.";
-        assert_eq!(dumped(line).collect::<Vec<_>>(), [0x48, 0xb7, 0x96, 0x2c, 0x0a]);
-        assert_eq!(dumped("").count() + dumped("N/A").count() + dumped("0: xyz").count(), 0);
+    fn units_of_h264_are_found() {
         let marked = [0, 0, 0, 1, 9, 0xf0, 0, 0, 1, 6, 5, 0, 0, 1, 0x65, 1];
-        assert_eq!(units(&marked).collect::<Vec<_>>(), [9, 6, 0x65]);
+        assert_eq!(units(&marked, "mpegts").collect::<Vec<_>>(), [9, 6, 0x65]);
         let counted = [0, 0, 0, 2, 6, 5, 0, 0, 0, 1, 0x41, 0xff, 0xff, 0xff, 0xff, 0x65];
-        assert_eq!(units(&counted).collect::<Vec<_>>(), [6, 0x41, 0x65]);
-        assert_eq!(units(&[0, 0, 0]).count(), 0);
+        for (container, header) in [("mov,mp4,m4a,3gp,3g2,mj2", 0), ("matroska,webm", 4), (FLV, 16)] {
+            let packet = [&[0x81; 16][..header], &counted].concat();
+            assert_eq!(units(&packet, container).collect::<Vec<_>>(), [6, 0x41, 0x65], "{container}");
+            assert_eq!(units(&[0, 0, 0], container).count(), 0);
+        }
     }
 }

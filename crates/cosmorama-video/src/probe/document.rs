@@ -54,7 +54,7 @@ impl Ffmpeg {
         drop_copied_tags(&mut document, number, container);
         let tells_start = is_boxes(container) || (is_matroska(container) && cut.is_none());
         let beginning = self.beginning_of(path, container, &document["streams"][number], tells_start);
-        if let Some(Beginning { start, .. }) = beginning {
+        if let Some(Beginning { start, .. }) = beginning.filter(|beginning| beginning.leading > 0 || !tells_start) {
             begin_at(&mut document["streams"][number], start, container);
         }
         let streams = streams(&document);
@@ -101,8 +101,7 @@ impl Ffmpeg {
         let index = stream["index"].as_u64().and_then(|index| u32::try_from(index).ok())?;
         let codec = text(stream, "codec_name").unwrap_or_default();
         let coded = CodedStream { index, container, codec, delay };
-        let found = self.beginning(path, coded).ok().flatten();
-        found.filter(|beginning| beginning.leading > 0 || !tells_start)
+        self.beginning(path, coded).ok().flatten()
     }
 
     /// Adds what only the file's boxes, or its first frame, tell.
@@ -143,7 +142,6 @@ impl Ffmpeg {
             info.hdr.mastering = frame.hdr.mastering;
             info.hdr.light = info.hdr.light.or(frame.hdr.light);
         }
-        info.is_open = info.codec == "h264" && info.delay > 0 && (info.leading > 0 || self.begins_open(info)?);
         if begins_anywhere(&info.container) {
             info.early = self.early_frames(info)?;
         }
