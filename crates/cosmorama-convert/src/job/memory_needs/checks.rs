@@ -76,8 +76,8 @@ impl MemoryBudget {
         self.with_program(needs) <= self.bytes
     }
 
-    /// Returns the bytes of a frame and of the program, unless both are few and no film is among them. Of addresses there is no room beside: a third of the
-    /// program has its own already.
+    /// Returns the bytes of a frame and of the program, unless both are few and no film is among them. Of addresses there is no room
+    /// beside: a third of the program has its own already.
     fn with_program(self, needs: FrameNeeds) -> u64 {
         let program = program_bytes(rayon::current_num_threads(), needs.made());
         let all = with_reserve(needs.peak()).saturating_add(program);
