@@ -20,18 +20,20 @@ pub(super) struct Beginning {
     pub(super) left_out: u64,
     /// Whether it is H.264 whose first key frame does not make frames before it needless.
     pub(super) is_open: bool,
+    /// Whether some of its first frames are not shown.
+    pub(super) hides: bool,
 }
 
 impl Beginning {
     /// Returns that of a stream that begins with its first coded frame.
     fn whole(start: i64) -> Self {
-        Self { start, leading: 0, left_out: 0, is_open: false }
+        Self { start, leading: 0, left_out: 0, is_open: false, hides: false }
     }
 
     /// Returns the beginning at a time, behind coded frames before that, of which some are to be shown, and others that have no time.
     fn behind(coded: &[i64], shown: &[i64], untimed: u64, start: i64) -> Self {
         let before = |times: &[i64]| times.iter().filter(|time| **time < start).count() as u64 + untimed;
-        Self { start, leading: before(coded), left_out: before(shown), is_open: false }
+        Self { start, leading: before(coded), left_out: before(shown), ..Self::whole(start) }
     }
 }
 
@@ -45,7 +47,8 @@ impl Ffmpeg {
         let listed = Listed { ffmpeg: self, path, stream, packets, shown };
         let beginning = listed.behind_cut_off().unwrap_or(Beginning::whole(first));
         let is_open = stream.codec == "h264" && (beginning.leading > 0 || listed.begins_open().unwrap_or(false));
-        Ok(Some(Beginning { is_open, ..beginning }))
+        let hides = listed.packets.iter().any(|packet| !packet.is_shown);
+        Ok(Some(Beginning { is_open, hides, ..beginning }))
     }
 
     /// Counts the frames that are shown before the first key frame, where the video does not begin with one.
@@ -75,6 +78,7 @@ impl VideoInfo {
             self.start = self.rate.inverse().rescale(self.delay as i64, self.time_base);
         }
         self.is_open = beginning.is_some_and(|beginning| beginning.is_open);
+        self.hides = beginning.is_some_and(|beginning| beginning.hides);
         let Some(Beginning { leading, left_out, .. }) = beginning.filter(|beginning| beginning.leading > 0) else {
             return;
         };

@@ -109,14 +109,10 @@ impl Ffmpeg {
         // Matroska tells a rate, whatever the times of its frames.
         if is_matroska(&info.container) && !info.is_variable {
             let evenness = self.evenness(info)?;
-            if let Evenness::Lacking { first, count } = evenness {
-                info.notes.push(format!(
-                    "of the first places for {} frames a second, it leaves {count} empty, first number {first}: its encoder left frames out, or \
-                     they are lost; its rate is taken to vary",
-                    info.rate
-                ));
-            }
             info.is_variable = evenness != Evenness::Even;
+            if let Evenness::Lacking(places) = evenness {
+                info.empty_places = places;
+            }
             // A duration tells no number of frames where their rate varies.
             let is_told = |told: &Announced| told.by == AnnouncedBy::Count || !info.is_variable;
             info.announced = info.announced.filter(is_told);
@@ -159,13 +155,16 @@ impl Ffmpeg {
         Ok(())
     }
 
-    /// Corrects the number of frames that an MP4 announces: it counts none that are lacking before its last.
+    /// Corrects the number of frames that an MP4 announces: it counts none that are lacking before its last, and those that it hides.
     fn count_lacking(&self, info: &mut VideoInfo) -> Result<(), VideoError> {
         if let Some(Announced { frames, by: AnnouncedBy::Count }) = info.announced
-            && !info.is_variable
             && info.delay > 0
+            && (info.hides || !info.is_variable)
         {
-            let frames = frames.max(self.frames_by_time(info)?);
+            let frames = match info.is_variable {
+                true => self.packet_times(info)?.len() as u64,
+                false => frames.max(self.frames_by_time(info)?),
+            };
             info.announced = Some(Announced { frames, by: AnnouncedBy::Count });
         }
         Ok(())

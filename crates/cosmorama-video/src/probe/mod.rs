@@ -81,6 +81,9 @@ pub struct VideoInfo {
     pub metadata: Vec<(String, String)>,
     /// Frames at the beginning that are left out: they took after others, which were cut off.
     pub left_out: u64,
+    /// Places for frames of its rate that are empty, of the first hundred, where a Matroska leaves few: its encoder left frames out, or they are
+    /// lost. Its rate varies then.
+    pub empty_places: Vec<u64>,
     /// Bytes that the file lacks by its own account.
     pub cut: Option<CutShort>,
     /// Seconds at which the file begins, from which ffmpeg counts when it seeks, by the times of the frames.
@@ -89,6 +92,8 @@ pub struct VideoInfo {
     pub(crate) early: u64,
     /// Coded frames, behind the key frame with which the stream begins, that would be shown before the first one that is.
     pub(crate) leading: u64,
+    /// Whether some of its first frames are not shown, as an edit list tells.
+    pub(crate) hides: bool,
     /// Whether it is H.264 that begins with a key frame of an open group: frames behind it may name others before it, which were cut off.
     pub(crate) is_open: bool,
     /// Frames that a decoder keeps back, to give them in the order in which they are shown.

@@ -114,8 +114,10 @@ impl<'a> Stream<'a> {
             file_start: 0.0,
             early: 0,
             leading: 0,
+            hides: false,
             is_open: false,
             left_out: 0,
+            empty_places: Vec::new(),
             delay: delay(value),
             notes: Vec::new(),
         }

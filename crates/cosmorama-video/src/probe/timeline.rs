@@ -1,4 +1,4 @@
-use super::packets::{CodedStream, FIRST, shown_times};
+use super::packets::{CodedFrame, CodedStream, FIRST, shown_times, timed};
 use crate::{Ffmpeg, Ratio, VideoError, VideoInfo};
 
 /// Times of a video's frames.
@@ -91,17 +91,12 @@ fn nearest(times: &[i64], time: i64) -> usize {
 }
 
 /// Way in which frames follow each other.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Evenness {
     /// At a rate.
     Even,
-    /// In places for a rate, a few of which are empty.
-    Lacking {
-        /// Number of the first empty place.
-        first: u64,
-        /// Number of empty places.
-        count: u64,
-    },
+    /// In places for a rate, some of which are empty: these.
+    Lacking(Vec<u64>),
     /// At no rate.
     Varying,
 }
@@ -109,20 +104,30 @@ pub(super) enum Evenness {
 impl Evenness {
     fn of(times: &[i64], even: &Timeline) -> Self {
         let frames: Vec<u64> = times.iter().map(|time| even.frame(*time)).collect();
-        let Some((first, _)) = (0..frames.len() as u64).zip(&frames).find(|(place, frame)| place != *frame) else {
+        if (0..).zip(&frames).all(|(place, frame)| place == *frame) {
             return Self::Even;
-        };
-        let count = frames.last().map_or(0, |last| (last + 1).saturating_sub(frames.len() as u64));
+        }
         let is_placed = |time: i64| {
             let frame = even.frame(time);
             let near = even.time(frame).zip(even.time(frame + 1));
             near.is_some_and(|(place, next)| 8 * place.abs_diff(time) <= place.abs_diff(next))
         };
-        let is_lacking = frames.is_sorted_by(|a, b| a < b) && times.iter().all(|time| is_placed(*time));
-        match is_lacking && 10 * count <= frames.len() as u64 {
-            true => Self::Lacking { first, count },
-            false => Self::Varying,
+        let count = frames.last().map_or(0, |last| (last + 1).saturating_sub(frames.len() as u64));
+        // So many are no accident.
+        let are_few = 4 * count <= frames.len() as u64;
+        if !are_few || !frames.is_sorted_by(|a, b| a < b) || !times.iter().all(|time| is_placed(*time)) {
+            return Self::Varying;
         }
+        Self::Lacking(frames.windows(2).flat_map(|pair| pair[0] + 1..pair[1]).collect())
+    }
+
+    /// Returns whether the empty places are those that the end of a film lacks that was cut out: all frames behind them are decoded when the last one
+    /// is, or later.
+    fn is_of_end(&self, coded: &[CodedFrame], even: &Timeline) -> bool {
+        let Self::Lacking(places) = self else { return false };
+        let numbers: Vec<u64> = coded.iter().map(|coded| even.frame(coded.time)).collect();
+        let last = numbers.iter().max().and_then(|last| numbers.iter().position(|number| number == last));
+        last.is_some_and(|last| numbers[..last].iter().all(|number| *number < places[0]))
     }
 }
 
@@ -146,10 +151,10 @@ impl Ffmpeg {
     /// Returns how many frames a film of a constant rate has by the time of its last one: where it lacks some before that, as at the end of a
     /// film that was cut out without coding it anew, these are more than it counts.
     pub(super) fn frames_by_time(&self, info: &VideoInfo) -> Result<u64, VideoError> {
-        /// Seconds from the end, within which the last frame is decoded.
-        const END: f64 = 2.0;
+        /// Seconds from the end, within which the last frame is decoded; and frames, where these are slow.
+        const END: (f64, f64) = (2.0, 40.0);
         let end = info.start as f64 * info.time_base.to_f64() + info.duration.unwrap_or(0.0);
-        let part = format!("{:.3}%", (end - END).max(0.0));
+        let part = format!("{:.3}%", (end - END.0.max(END.1 / info.rate.to_f64())).max(0.0));
         let coded = self.coded_frames(info, &["-read_intervals", &part])?;
         let last = shown_times(&coded).last().copied();
         let even = Timeline::Even { start: info.start, time_base: info.time_base, rate: info.rate };
@@ -161,11 +166,14 @@ impl Ffmpeg {
         /// Frames at the end of those that are read, or that are left of a cut file, before which others may come.
         const UNSURE: usize = 20;
         let stream = CodedStream::of(info);
-        let times = stream.times_of(info, &self.packets(&info.path, stream, &FIRST)?);
+        let packets = self.packets(&info.path, stream, &FIRST)?;
+        let times = stream.times_of(info, &packets);
         let is_whole = times.len() < 100 && info.cut.is_none();
         let sure = times.len().saturating_sub(if is_whole { 0 } else { UNSURE });
         let even = Timeline::Even { start: info.start, time_base: info.time_base, rate: info.rate };
-        Ok(Evenness::of(&times[..sure], &even))
+        let coded = if stream.tells_times(&packets) { timed(&packets) } else { Vec::new() };
+        let found = Evenness::of(&times[..sure], &even);
+        Ok(if is_whole && found.is_of_end(&coded, &even) { Evenness::Even } else { found })
     }
 
     /// Reads the times of all coded frames that are shown, in their order.
@@ -210,12 +218,28 @@ mod tests {
         assert_eq!(Evenness::of(&times(&all), &even), Evenness::Even);
         let without = |lost: &[u64]| all.iter().copied().filter(|place| !lost.contains(place)).collect::<Vec<_>>();
         let lacking = Evenness::of(&times(&without(&[41, 60])), &even);
-        assert_eq!(lacking, Evenness::Lacking { first: 41, count: 2 });
-        let half: Vec<u64> = all.iter().map(|place| 2 * place).collect();
-        assert_eq!(Evenness::of(&times(&half), &even), Evenness::Varying);
+        assert_eq!(lacking, Evenness::Lacking(vec![41, 60]));
+        let thin: Vec<u64> = all.iter().map(|place| 2 * place).collect();
+        assert_eq!(Evenness::of(&times(&thin), &even), Evenness::Varying);
         let mut late = times(&without(&[41]));
         late[70] += 15;
         assert_eq!(Evenness::of(&late, &even), Evenness::Varying);
+    }
+
+    #[test]
+    fn the_end_of_a_film_that_was_cut_out_lacks_what_is_decoded_behind_its_last() {
+        let time_base = Ratio::parse("1/1000").unwrap();
+        let even = Timeline::Even { start: 0, time_base, rate: Ratio::parse("25").unwrap() };
+        let is_of_end = |numbers: &[u64]| {
+            let frame =
+                |number: &u64| CodedFrame { time: even.time(*number).unwrap(), is_key: *number == 0, is_shown: true };
+            let coded: Vec<CodedFrame> = numbers.iter().map(frame).collect();
+            Evenness::of(&shown_times(&coded), &even).is_of_end(&coded, &even)
+        };
+        assert!(is_of_end(&[0, 4, 2, 1, 3, 8, 6]));
+        assert!(is_of_end(&[0, 4, 2, 1, 3, 8]));
+        assert!(!is_of_end(&[0, 4, 2, 3, 8, 6]));
+        assert!(!is_of_end(&[0, 4, 2, 1, 3, 8, 6, 5, 7]));
     }
 
     #[test]

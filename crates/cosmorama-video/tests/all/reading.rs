@@ -214,6 +214,21 @@ fn films_that_were_cut_out_end_with_their_last_frame() {
     assert!(lacking > 0, "none is lacking anywhere");
 }
 
+/// An MP4 that hides its first frames and lacks some at its end has a rate that varies, and counts the hidden ones.
+#[test]
+fn a_film_that_hides_and_lacks_frames_has_those_that_it_shows() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let (film, cut) = (folder.path().join("a.mkv"), folder.path().join("b.mp4"));
+    run(&format!("{} -c:v libx264 -bf 3 -b_strategy 0 -g 25 -threads 2", moving(64, 32, "30000/1001", 150)), &film);
+    run(&format!("-ss 0.1 -i {} -t 2.10 -c copy", film.display()), &cut);
+    let shown = probed(&cut, "-select_streams v -show_entries frame=pts -of csv=p=0").lines().count();
+    let info = ffmpeg.probe(&cut).unwrap();
+    assert_eq!(info.announced.map(|told| told.frames), Some(shown as u64));
+    let left = frames(&ffmpeg, &cut, ReadOptions::default()).unwrap();
+    assert!(left.len() == shown && left.iter().all(|frame| frame.condition == FrameCondition::Whole), "{}", left.len());
+}
+
 /// Behind a key frame of an open group that none comes before, H.264 names frames that were cut off, and takes after none of them.
 #[test]
 fn films_that_begin_with_an_open_group_are_whole() {

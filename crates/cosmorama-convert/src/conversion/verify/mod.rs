@@ -15,7 +15,7 @@ use rayon::prelude::*;
 
 use super::check::frames_at_times;
 use super::{Observer, Stop, threads};
-use crate::diagnostic::{ConvertError, EVERY, FRAMES, Result, bail, usage};
+use crate::diagnostic::{Code, ConvertError, Diagnostic, EVERY, FRAMES, Result, bail, usage};
 use crate::input::is_one_file;
 use crate::job::real_path;
 use crate::settings::LimitSettings;
@@ -91,6 +91,9 @@ impl Verification<'_> {
         let decoding = video.map_or(Ok(0), |(video, videos)| videos.memory(video))?;
         let memory = self.memory_beside(wanted.len())?.beside_codecs(decoding, "")?;
         let (pool, limits) = (threads(self.limits.threads)?, Limits::memory(memory.bytes));
+        if video.is_some() {
+            self.tell_complaints(&series, &wanted, files, observer);
+        }
         observer.begin(Some(wanted.len()));
         let mut frames: Vec<Frame> = Vec::with_capacity(wanted.len());
         let mut rest = &wanted[..];
@@ -121,6 +124,15 @@ impl Verification<'_> {
         let asked = &frames[..wanted.len()];
         let sheet = self.sheet.map(|layout| drawn(asked, &faults, layout));
         Ok(Verified { frames: frames.len(), faults, sheet })
+    }
+
+    /// Tells what is to be said of a video as a whole.
+    fn tell_complaints(&self, series: &ViewFiles, wanted: &[u64], files: &dyn Files, observer: &mut dyn Observer) {
+        let header = wanted.first().and_then(|first| probe(files, &series.path(Some(*first))).ok());
+        for words in header.map_or_else(Vec::new, |header| header.metadata.complaints) {
+            let told = Diagnostic::warning(Code::Metadata, format!("{}: {words}", self.pattern));
+            observer.diagnostic(&told.about(self.pattern));
+        }
     }
 
     /// Returns the frames that there should be, in order.

@@ -3,7 +3,7 @@
 use cosmorama::camera::{CameraModel, Canvas, Mirror};
 use cosmorama::layout::Arrangement;
 use cosmorama::raster::{Channels, Depth, Transfer};
-use cosmorama_io::{Format, Header, Metadata};
+use cosmorama_io::{Format, FrameList, Header, Metadata};
 use cosmorama_spec::{Shape, Spec};
 use cosmorama_video::{
     Bounds, HalfPlace, OtherStream, SpatialTags, SphericalPose, SphericalProjection, StereoMode, StreamKind, Turn,
@@ -43,11 +43,19 @@ pub(super) fn metadata(info: &VideoInfo) -> Metadata {
             info.left_out
         )
     });
+    let lacking = (!info.empty_places.is_empty()).then(|| {
+        format!(
+            "of the first places for {} frames a second it leaves some empty, and its rate is taken to vary: its encoder left frames out, \
+             or they are lost: {}",
+            info.rate,
+            FrameList::new(info.empty_places.iter().copied())
+        )
+    });
     let ignored = info.spatial.as_ref().and_then(|tags| not_followed(tags, info.size()));
     Metadata {
         transfer: info.colour.known_transfer().or(untagged),
         primaries: info.colour.known_primaries(),
-        complaints: cut_off.into_iter().chain(ignored).collect(),
+        complaints: cut_off.into_iter().chain(lacking).chain(ignored).collect(),
         notes: info.notes.clone(),
         ..Metadata::default()
     }
