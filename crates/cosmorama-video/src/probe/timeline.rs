@@ -112,13 +112,12 @@ impl Evenness {
             let near = even.time(frame).zip(even.time(frame + 1));
             near.is_some_and(|(place, next)| 8 * place.abs_diff(time) <= place.abs_diff(next))
         };
-        let count = frames.last().map_or(0, |last| (last + 1).saturating_sub(frames.len() as u64));
-        // So many are no accident.
-        let are_few = 4 * count <= frames.len() as u64;
-        if !are_few || !frames.is_sorted_by(|a, b| a < b) || !times.iter().all(|time| is_placed(*time)) {
+        let last = frames.last().copied().unwrap_or(0);
+        let are_placed = frames.is_sorted_by(|a, b| a < b) && times.iter().all(|time| is_placed(*time));
+        if !are_placed || last >= 2 * frames.len() as u64 {
             return Self::Varying;
         }
-        Self::Lacking(frames.windows(2).flat_map(|pair| pair[0] + 1..pair[1]).collect())
+        Self::Lacking((0..last).filter(|place| frames.binary_search(place).is_err()).collect())
     }
 
     /// Returns whether the empty places are those that the end of a film lacks that was cut out: all frames behind them are decoded when the last one
@@ -172,8 +171,12 @@ impl Ffmpeg {
         let sure = times.len().saturating_sub(if is_whole { 0 } else { UNSURE });
         let even = Timeline::Even { start: info.start, time_base: info.time_base, rate: info.rate };
         let coded = if stream.tells_times(&packets) { timed(&packets) } else { Vec::new() };
-        let found = Evenness::of(&times[..sure], &even);
-        Ok(if is_whole && found.is_of_end(&coded, &even) { Evenness::Even } else { found })
+        Ok(match Evenness::of(&times[..sure], &even) {
+            found if is_whole && found.is_of_end(&coded, &even) => Evenness::Even,
+            // So many are no accident.
+            Evenness::Lacking(places) if 4 * places.len() > sure => Evenness::Varying,
+            found => found,
+        })
     }
 
     /// Reads the times of all coded frames that are shown, in their order.
@@ -219,8 +222,8 @@ mod tests {
         let without = |lost: &[u64]| all.iter().copied().filter(|place| !lost.contains(place)).collect::<Vec<_>>();
         let lacking = Evenness::of(&times(&without(&[41, 60])), &even);
         assert_eq!(lacking, Evenness::Lacking(vec![41, 60]));
-        let thin: Vec<u64> = all.iter().map(|place| 2 * place).collect();
-        assert_eq!(Evenness::of(&times(&thin), &even), Evenness::Varying);
+        assert_eq!(Evenness::of(&times(&[1, 2]), &even), Evenness::Lacking(vec![0]));
+        assert_eq!(Evenness::of(&[0, i64::MAX / 2], &even), Evenness::Varying);
         let mut late = times(&without(&[41]));
         late[70] += 15;
         assert_eq!(Evenness::of(&late, &even), Evenness::Varying);
