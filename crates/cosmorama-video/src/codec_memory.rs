@@ -80,7 +80,7 @@ impl VideoInfo {
         };
         // Samples take twice as much, and filters make a frame of all of them beside. ProRes has no others.
         let is_doubled = is_deep && self.codec != "prores";
-        let pixel = if is_doubled { PixelBytes::new(pixel.alone + 24, pixel.thread + 2) } else { pixel };
+        let pixel = if is_doubled { PixelBytes::new(pixel.alone + 44, pixel.thread + 2) } else { pixel };
         let threads = if threads == 0 { (cores() + 1).min(MOST_THREADS) } else { threads };
         pixel.of_frame(self.coded_size, threads, FIXED)
     }
