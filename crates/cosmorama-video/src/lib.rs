@@ -11,6 +11,7 @@ mod codec_memory;
 mod colour;
 mod error;
 mod ffmpeg;
+mod labels;
 mod probe;
 mod ratio;
 mod read;
@@ -21,6 +22,7 @@ mod write;
 pub use colour::{ChromaPlace, ColourTags, ContentLight, HdrTags, MasteringDisplay, SignalRange, transfer_number};
 pub use error::VideoError;
 pub use ffmpeg::{Ffmpeg, Version};
+pub use labels::Labels;
 pub use probe::{Announced, AnnouncedBy, CutShort, OtherStream, StreamKind, Timeline, Turn, VideoInfo};
 pub use ratio::Ratio;
 pub use read::{

@@ -14,7 +14,8 @@ use super::stream::{Stream, delay, is_statistic, ratio, text};
 use super::timeline::Evenness;
 use super::{Announced, AnnouncedBy, CutShort, OtherStream, Places, StreamKind, Timeline, VideoInfo, structure};
 use crate::ffmpeg::Said;
-use crate::{Ffmpeg, SpatialTags, VideoError};
+use crate::labels::tag;
+use crate::{Ffmpeg, Labels, SpatialTags, VideoError};
 
 /// Time in which a file must be probed.
 pub(super) const PATIENCE: Duration = Duration::from_secs(60);
@@ -255,26 +256,21 @@ fn is_video(stream: &Value) -> bool {
 }
 
 fn other(stream: &Value) -> OtherStream {
-    let kind = match stream["codec_type"].as_str() {
-        Some("audio") => StreamKind::Audio,
-        Some("subtitle") => StreamKind::Subtitle,
-        Some("video") => StreamKind::Video,
-        _ => StreamKind::Data,
+    let code = text(stream, "codec_tag_string").unwrap_or_default();
+    let kind = match StreamKind::of(text(stream, "codec_type").unwrap_or_default()) {
+        StreamKind::Data if code == "tmcd" => StreamKind::TimeCode,
+        kind => kind,
     };
+    // Of data, ffprobe knows few codecs, and the container's code tells as much.
+    let code = Some(code).filter(|_| kind == StreamKind::Data);
     let number = |name: &str| stream[name].as_u64().and_then(|number| u32::try_from(number).ok()).unwrap_or(0);
     OtherStream {
         index: number("index"),
         kind,
-        codec: text(stream, "codec_name").unwrap_or_default().to_owned(),
-        language: tag(stream, "language").filter(|language| *language != "und").map(str::to_owned),
+        codec: text(stream, "codec_name").or(code).unwrap_or_default().to_owned(),
+        labels: Labels::of(stream),
         channels: number("channels"),
     }
-}
-
-/// Returns a tag, whose name Matroska writes in capitals.
-fn tag<'a>(value: &'a Value, name: &str) -> Option<&'a str> {
-    let tags = value["tags"].as_object()?;
-    tags.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)).and_then(|(_, value)| value.as_str())
 }
 
 fn timecode(video: &Value, streams: &[Value], format: &Value) -> Option<String> {

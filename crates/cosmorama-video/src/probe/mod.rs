@@ -21,7 +21,7 @@ pub(crate) use packets::{CodedFrame, shown_times};
 pub use timeline::Timeline;
 pub use turn::Turn;
 
-use crate::{ColourTags, HdrTags, Ratio, SignalRange, SpatialTags};
+use crate::{ColourTags, HdrTags, Labels, Ratio, SignalRange, SpatialTags};
 
 /// Properties of a video file, without its pictures.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,6 +71,8 @@ pub struct VideoInfo {
     pub hdr: HdrTags,
     /// Tags of spherical video.
     pub spatial: Option<SpatialTags>,
+    /// Language, title and roles of the video.
+    pub labels: Labels,
     /// Streams beside the video: sound, subtitles, data.
     pub others: Vec<OtherStream>,
     /// Number of chapters.
@@ -169,10 +171,10 @@ pub struct OtherStream {
     pub index: u32,
     /// Kind.
     pub kind: StreamKind,
-    /// Name of the codec; empty if ffprobe knows none.
+    /// Name of the codec, or the container's code for it; empty if neither is known.
     pub codec: String,
-    /// Language, such as `eng`.
-    pub language: Option<String>,
+    /// Language, title and roles.
+    pub labels: Labels,
     /// Number of sound channels; 0 for others.
     pub channels: u32,
 }
@@ -186,6 +188,35 @@ pub enum StreamKind {
     Subtitle,
     /// A further video, or a cover picture.
     Video,
-    /// Time code and other data.
+    /// File beside them, such as a font of subtitles.
+    Attachment,
+    /// Time code.
+    TimeCode,
+    /// Other data.
     Data,
+}
+
+impl StreamKind {
+    /// Returns the kind by ffprobe's name.
+    pub(crate) fn of(name: &str) -> Self {
+        match name {
+            "audio" => Self::Audio,
+            "subtitle" => Self::Subtitle,
+            "video" => Self::Video,
+            "attachment" => Self::Attachment,
+            _ => Self::Data,
+        }
+    }
+
+    /// Returns a word for the kind.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Audio => "sound",
+            Self::Subtitle => "subtitles",
+            Self::Video => "video",
+            Self::Attachment => "attached file",
+            Self::TimeCode => "time code",
+            Self::Data => "data",
+        }
+    }
 }

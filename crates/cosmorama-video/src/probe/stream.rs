@@ -8,7 +8,7 @@ use super::pixel_format::PixelFormat;
 use super::{Announced, AnnouncedBy, Turn, VideoInfo};
 use crate::colour::Axis;
 use crate::{
-    Bounds, ChromaPlace, ColourTags, ContentLight, HdrTags, MasteringDisplay, Ratio, SignalRange, SpatialTags,
+    Bounds, ChromaPlace, ColourTags, ContentLight, HdrTags, Labels, MasteringDisplay, Ratio, SignalRange, SpatialTags,
     SphericalPose, SphericalProjection, StereoMode, VideoError,
 };
 
@@ -106,6 +106,7 @@ impl<'a> Stream<'a> {
             colour: colour(value),
             hdr,
             spatial,
+            labels: Labels::of(value),
             others: Vec::new(),
             chapters: 0,
             timecode: None,

@@ -3,6 +3,7 @@
 
 use std::ffi::OsString;
 
+use super::labels::Labelled;
 use super::{Carried, Container, FrameTimes, WriteSettings, timecode};
 use crate::ffmpeg::{input_limits, url};
 use crate::probe::is_boxes;
@@ -17,6 +18,8 @@ pub(super) struct Plan {
     pub(super) output: Vec<String>,
     /// Number of streams of sound in the output.
     pub(super) sounds: usize,
+    /// Labels of the video and of the streams that go along.
+    pub(super) labelled: Vec<Labelled>,
     /// Whether boxes about the sound go along: between MP4 and MOV.
     pub(super) fields: bool,
     /// Statements on what is not copied.
@@ -43,15 +46,24 @@ const UNSEEN: f64 = 0.1;
 /// First version of ffmpeg that leaves subtitles out by their times.
 const DROPS: Version = Version { major: 5, minor: 0 };
 
-/// Place of subtitles that are coded anew.
-#[derive(Clone, Copy)]
-enum Recoded {
-    /// They begin with the sound.
+/// Beginning of subtitles.
+#[derive(Clone, Copy, PartialEq)]
+enum Beginning {
+    /// Beginning of sound and pictures.
     Along,
-    /// They begin with the file, an instant before the pictures.
-    FromFile,
-    /// They begin with the part, without those that are shown before.
-    WithPart,
+    /// Beginning of the file, an instant before the pictures.
+    File,
+    /// Beginning of the part, without subtitles that are shown before.
+    Part,
+}
+
+/// Film and container that all streams share on their way.
+struct Way<'a> {
+    info: &'a VideoInfo,
+    container: Container,
+    /// Beginning of subtitles.
+    beginning: Beginning,
+    version: Version,
 }
 
 impl Plan {
@@ -76,18 +88,14 @@ impl Plan {
             plan.output.extend(["-t".to_owned(), format!("{:.6}", length - shorter)]);
         }
         plan.input.extend([OsString::from("-i"), url(&info.path)]);
-        let recoded = match seconds {
-            _ if !is_later => Some(Recoded::Along),
-            None if start < UNSEEN => Some(Recoded::FromFile),
-            _ => (version >= DROPS).then_some(Recoded::WithPart),
+        let beginning = if !is_later {
+            Beginning::Along
+        } else if start < UNSEEN {
+            Beginning::File
+        } else {
+            Beginning::Part
         };
-        for stream in &info.others {
-            // MOV keeps the names of its chapters in a stream.
-            let are_chapters = stream.codec == "bin_data" && info.chapters > 0;
-            if !are_chapters {
-                plan.add(stream, (info, container), recoded);
-            }
-        }
+        plan.add_streams(&Way { info, container, beginning, version });
         plan.fields = container.has_boxes() && is_boxes(&info.container);
         // They are taken from an instant later on, without one that ends where the part begins.
         let has_earlier = is_later && info.chapters > 0;
@@ -100,6 +108,26 @@ impl Plan {
         plan
     }
 
+    fn add_streams(&mut self, way: &Way<'_>) {
+        let Way { info, container, beginning, .. } = *way;
+        let name = format!("stream {} (video, {})", info.stream, info.codec);
+        let video = Labelled { name, kind: StreamKind::Video, labels: info.labels.clone() };
+        self.output.extend(video.of_video(container));
+        self.labelled.push(video);
+        for stream in &info.others {
+            // MOV keeps the names of its chapters in a stream.
+            let are_chapters = stream.codec == "bin_data" && info.chapters > 0;
+            if !are_chapters {
+                self.add(stream, way);
+            }
+        }
+        if beginning == Beginning::Part && self.labelled.iter().any(|stream| stream.kind == StreamKind::Subtitle) {
+            let note =
+                "subtitles begin with the part: those that are shown before are left out, even where they stay on";
+            self.notes.push(note.to_owned());
+        }
+    }
+
     /// Adds the file once more, from some seconds on, and returns the input's number.
     fn add_input(&mut self, info: &VideoInfo, start: Option<f64>) -> usize {
         self.input.extend(input_limits().map(OsString::from));
@@ -110,32 +138,21 @@ impl Plan {
         self.input.iter().filter(|argument| *argument == "-i").count()
     }
 
-    fn add(&mut self, stream: &OtherStream, (info, container): (&VideoInfo, Container), recoded: Option<Recoded>) {
-        let answer = match stream.kind {
-            StreamKind::Audio => sound(&stream.codec, container),
-            StreamKind::Subtitle => match subtitle(&stream.codec, container) {
-                Answer::Code(_) if recoded.is_none() => Answer::Leave,
-                answer => answer,
-            },
-            StreamKind::Video | StreamKind::Data => Answer::Leave,
-        };
-        let kind = match stream.kind {
-            StreamKind::Audio => "sound",
-            StreamKind::Subtitle => "subtitles",
-            StreamKind::Video => "video",
-            StreamKind::Data => "data",
-        };
-        let name = format!("stream {} ({kind}, {})", stream.index, stream.codec);
-        let is_sound = stream.kind == StreamKind::Audio;
-        let at = if is_sound { format!("a:{}", self.sounds) } else { format!("s:{}", self.subtitles()) };
-        let encoder = match answer {
-            // The time code has a place of its own.
-            Answer::Leave if stream.kind == StreamKind::Data && stream.codec.is_empty() => return,
-            Answer::Leave => {
+    fn add(&mut self, stream: &OtherStream, way: &Way<'_>) {
+        let Way { info, container, beginning, version } = *way;
+        let name = format!("stream {} ({}, {})", stream.index, stream.kind.name(), stream.codec);
+        let starts_with_part = stream.kind == StreamKind::Subtitle && beginning == Beginning::Part;
+        let encoder = match answer(stream, container) {
+            // It has a place of its own.
+            _ if stream.kind == StreamKind::TimeCode => return,
+            Answer::Code(_) if starts_with_part && version < DROPS => {
                 return self.notes.push(format!(
-                    "{name} is left out: {} has no room for it, or not for a part of it",
+                    "{name} is left out: ffmpeg {version} does not code it anew for {} without what comes before the part",
                     container.name()
                 ));
+            }
+            Answer::Leave => {
+                return self.notes.push(format!("{name} is left out: {} has no room for it", container.name()));
             }
             Answer::Copy => "copy",
             Answer::Code(encoder) => {
@@ -144,12 +161,17 @@ impl Plan {
                 encoder
             }
         };
-        let recoded = recoded.filter(|_| stream.kind == StreamKind::Subtitle && encoder != "copy");
-        let input = match recoded {
-            Some(Recoded::FromFile) => self.add_input(info, None),
+        let at = match stream.kind {
+            StreamKind::Audio => 'a',
+            StreamKind::Attachment => 't',
+            _ => 's',
+        };
+        let at = format!("{at}:{}", self.labelled.iter().filter(|other| other.kind == stream.kind).count());
+        let input = match beginning {
+            Beginning::File if stream.kind == StreamKind::Subtitle => self.add_input(info, None),
             _ => 1,
         };
-        if let Some(Recoded::WithPart) = recoded {
+        if starts_with_part && encoder != "copy" {
             // With those that are shown before, ffmpeg would delay the pictures until then.
             self.output.extend([format!("-bsf:{at}"), "noise=drop=lt(pts\\,0)".to_owned()]);
         }
@@ -158,11 +180,10 @@ impl Plan {
         if matches!(encoder, "aac" | "libopus") {
             self.output.extend([format!("-b:{at}"), format!("{}k", 96 * stream.channels.clamp(1, 16))]);
         }
-        self.sounds += usize::from(is_sound);
-    }
-
-    fn subtitles(&self) -> usize {
-        self.output.iter().filter(|argument| argument.starts_with("-c:s:")).count()
+        self.sounds += usize::from(stream.kind == StreamKind::Audio);
+        let labelled = Labelled { name, kind: stream.kind, labels: stream.labels.clone() };
+        self.output.extend(labelled.beyond_copying(&at, container));
+        self.labelled.push(labelled);
     }
 
     fn add_timecode(&mut self, settings: &WriteSettings) {
@@ -177,6 +198,15 @@ impl Plan {
                 .notes
                 .push(format!("the time code {} is left out: it is none of this frame rate", code.escape_debug())),
         }
+    }
+}
+
+fn answer(stream: &OtherStream, container: Container) -> Answer {
+    match stream.kind {
+        StreamKind::Audio => sound(&stream.codec, container),
+        StreamKind::Subtitle => subtitle(&stream.codec, container),
+        StreamKind::Attachment if container == Container::Matroska => Answer::Copy,
+        StreamKind::Attachment | StreamKind::Video | StreamKind::TimeCode | StreamKind::Data => Answer::Leave,
     }
 }
 

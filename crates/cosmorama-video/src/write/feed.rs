@@ -93,6 +93,7 @@ const TRACK_UID: &[u8] = &[0x73, 0xc5];
 const TRACK_TYPE: &[u8] = &[0x83];
 const FLAG_LACING: &[u8] = &[0x9c];
 const DEFAULT_DURATION: &[u8] = &[0x23, 0xe3, 0x83];
+const LANGUAGE: &[u8] = &[0x22, 0xb5, 0x9c];
 const CODEC_ID: &[u8] = &[0x86];
 const VIDEO: &[u8] = &[0xe0];
 const PIXEL_WIDTH: &[u8] = &[0xb0];
@@ -159,6 +160,8 @@ impl Header<'_> {
             whole(TRACK_TYPE, 1),
             whole(FLAG_LACING, 0),
             whole(DEFAULT_DURATION, duration),
+            // Without it, tracks are English.
+            element(LANGUAGE, b"und"),
             element(CODEC_ID, b"V_UNCOMPRESSED"),
             element(VIDEO, &self.video()),
         ];

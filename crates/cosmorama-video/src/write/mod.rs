@@ -6,6 +6,7 @@ mod codec;
 mod command;
 mod container;
 mod feed;
+mod labels;
 mod timecode;
 mod verify;
 mod writer;

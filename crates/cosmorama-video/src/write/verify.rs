@@ -5,15 +5,20 @@ use std::time::Duration;
 
 use serde_json::Value;
 
-use crate::{Ffmpeg, VideoError};
+use super::Container;
+use super::labels::Labelled;
+use crate::{Ffmpeg, StreamKind, VideoError};
 
 /// Expected content of a video.
-pub(super) struct Expected {
+pub(super) struct Expected<'a> {
     pub(super) frames: u64,
     pub(super) size: (usize, usize),
     pub(super) sounds: Option<usize>,
     /// Whether it must say that it is spherical.
     pub(super) is_spherical: bool,
+    pub(super) container: Container,
+    /// Labels that it should have.
+    pub(super) labelled: &'a [Labelled],
 }
 
 /// Time for reading a whole video once, which is at least as fast as it was written.
@@ -22,9 +27,9 @@ const PATIENCE: Duration = Duration::from_secs(12 * 60 * 60);
 /// Bytes of ffprobe's answer.
 const ANSWER: usize = 4 << 20;
 
-impl Expected {
-    /// Reads a temporary file and compares; messages name the file that it is to become.
-    pub(super) fn verify(&self, ffmpeg: &Ffmpeg, written: &Path, path: &Path) -> Result<(), VideoError> {
+impl Expected<'_> {
+    /// Reads a temporary file and compares; messages name the file that it is to become. Returns statements on labels that it has not kept.
+    pub(super) fn verify(&self, ffmpeg: &Ffmpeg, written: &Path, path: &Path) -> Result<Vec<String>, VideoError> {
         let not = |found: String, expected: String| VideoError::NotAsGiven { path: path.to_owned(), found, expected };
         let said = ffmpeg.ffprobe(written, &["-count_packets", "-of", "json", "-show_streams"], ANSWER, PATIENCE)?;
         let document = serde_json::from_slice::<Value>(&said.stdout).unwrap_or_default();
@@ -50,6 +55,23 @@ impl Expected {
         if self.is_spherical && !is_spherical {
             return Err(not("no spherical tag".to_owned(), "one was asked for".to_owned()));
         }
-        Ok(())
+        Ok(self.lost_labels(streams))
+    }
+
+    fn lost_labels(&self, streams: &[Value]) -> Vec<String> {
+        let lost = |(at, labelled): (usize, &Labelled)| {
+            let before = self.labelled[..at].iter().filter(|other| other.kind == labelled.kind).count();
+            let has_kind =
+                |stream: &&Value| StreamKind::of(stream["codec_type"].as_str().unwrap_or_default()) == labelled.kind;
+            // Arguments of the user's own may leave it out.
+            let written = streams.iter().filter(has_kind).nth(before)?;
+            let lost = labelled.lost(written, self.container)?;
+            Some(format!(
+                "{} loses {lost}: {} has no room for it, as ffmpeg writes it",
+                labelled.name,
+                self.container.name()
+            ))
+        };
+        self.labelled.iter().enumerate().filter_map(lost).collect()
     }
 }

@@ -170,8 +170,11 @@ impl VideoWriter {
             // Arguments of the user's own may leave sound out.
             sounds: self.settings.arguments.is_empty().then_some(self.plan.sounds),
             is_spherical: self.settings.spatial.is_some_and(|tags| tags.projection.is_some()),
+            container: self.container,
+            labelled: &self.plan.labelled,
         };
-        expected.verify(&self.ffmpeg, self.pending.path(), &self.path)?;
+        let lost = expected.verify(&self.ffmpeg, self.pending.path(), &self.path)?;
+        self.plan.notes.extend(lost);
         self.pending.finish()?;
         Ok(Written { path: self.path, frames: self.count, encoder: self.encoder.to_owned(), notes: self.plan.notes })
     }

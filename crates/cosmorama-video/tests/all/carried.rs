@@ -53,9 +53,9 @@ fn all_but_the_pictures_is_copied() {
         let found = ffmpeg.probe(&path).unwrap();
         let of = |kind| found.others.iter().filter(move |other| other.kind == kind);
         assert_eq!(of(StreamKind::Audio).map(|other| other.codec.as_str()).collect::<Vec<_>>(), ["aac"], "{name}");
-        // MOV knows fewer languages.
-        let language = of(StreamKind::Audio).next().unwrap().language.as_deref();
-        assert_eq!(language, if name == "a.mov" { None } else { Some("deu") }, "{name}");
+        // QuickTime knows it by its other code.
+        let language = of(StreamKind::Audio).next().unwrap().labels.language.as_deref();
+        assert_eq!(language, Some(if name == "a.mov" { "ger" } else { "deu" }), "{name}");
         assert_eq!(of(StreamKind::Subtitle).count(), 1, "{name}");
         assert_eq!(found.chapters, 2, "{name}");
         assert_eq!(found.timecode.as_deref(), Some("01:00:00:00"), "{name}");
@@ -119,7 +119,8 @@ fn subtitles_are_coded_anew_whenever_the_pictures_begin() {
             let path = folder.path().join(name);
             let count = part.as_ref().map_or(50, |_| 25);
             let written = write(&ffmpeg, &path, &settings(&info, part), count).unwrap();
-            assert!(written.notes.iter().all(|note| note.contains("coded anew")), "{name}: {:?}", written.notes);
+            let is_expected = |note: &String| note.contains("coded anew") || note.contains("begin with the part");
+            assert!(written.notes.iter().all(is_expected), "{name}: {:?}", written.notes);
             let entries = "-show_entries stream=codec_name:packet=pts_time,size -of csv=p=0";
             let told = probed(&path, &format!("-select_streams s {entries}"));
             let lines: Vec<&str> = told.lines().filter(|line| !line.is_empty()).collect();
@@ -134,6 +135,96 @@ fn subtitles_are_coded_anew_whenever_the_pictures_begin() {
             assert!(pictures.lines().next().unwrap().trim_end_matches(',').parse::<f64>().unwrap() < 0.01, "{name}");
         }
     }
+}
+
+/// Subtitles that stay on from before a part are left out of it, which is told.
+#[test]
+fn subtitles_from_before_a_part_are_told() {
+    let Some(ffmpeg) = ffmpeg().filter(|ffmpeg| ffmpeg.version().major >= 5) else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let info = source(&ffmpeg, folder.path());
+    for name in ["a.mp4", "a.mkv"] {
+        let path = folder.path().join(name);
+        for (part, expected) in [(None, false), (Some(0.0..1.0), false), (Some(1.0..2.0), true)] {
+            let count = part.as_ref().map_or(50, |_| 25);
+            let written = write(&ffmpeg, &path, &settings(&info, part.clone()), count).unwrap();
+            let is_told = written.notes.iter().any(|note| note.contains("begin with the part"));
+            assert_eq!(is_told, expected, "{name}, {part:?}: {:?}", written.notes);
+        }
+    }
+}
+
+/// Languages, titles and roles go along, and what a container does not hold is told. A video without a language gets none.
+#[test]
+fn labels_of_streams_go_along() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let [film, words] = ["film.mkv", "words.srt"].map(|name| folder.path().join(name));
+    std::fs::write(&words, SUBTITLES).unwrap();
+    let sound = "-f lavfi -i sine=duration=2";
+    let inputs = format!("{} {sound} {sound} -i {}", moving(64, 32, "25", 50), words.display());
+    let labels = "-metadata:s:a:0 language=deu -metadata:s:a:1 language=eng -metadata:s:a:1 title=Words \
+                  -metadata:s:s language=gsw -disposition:a:0 default -disposition:a:1 comment -disposition:s:0 forced";
+    run(&format!("{inputs} -map 0 -map 1 -map 2 -map 3 -c:v libx264 -c:a aac -c:s srt {labels}"), &film);
+    let info = ffmpeg.probe(&film).unwrap();
+    let lost = |notes: &[String]| notes.iter().filter(|note| note.contains("loses")).cloned().collect::<Vec<_>>();
+    let told = |path: &Path| {
+        let found = ffmpeg.probe(path).unwrap();
+        assert_eq!(found.labels.language, None, "{}", path.display());
+        let others = found.others.iter();
+        others.map(|other| (other.labels.language.clone().unwrap(), other.labels.roles.join("+"))).collect::<Vec<_>>()
+    };
+    let expected = |languages: [&str; 3], roles: [&str; 3]| {
+        languages.map(str::to_owned).into_iter().zip(roles.map(str::to_owned)).collect::<Vec<_>>()
+    };
+    let path = folder.path().join("a.mkv");
+    let written = write(&ffmpeg, &path, &settings(&info, None), 50).unwrap();
+    assert_eq!(lost(&written.notes), [""; 0]);
+    assert_eq!(told(&path), expected(["deu", "eng", "gsw"], ["", "comment", "forced"]));
+    assert_eq!(ffmpeg.probe(&path).unwrap().others[1].labels.title.as_deref(), Some("Words"));
+    let path = folder.path().join("a.mp4");
+    let written = write(&ffmpeg, &path, &settings(&info, None), 50).unwrap();
+    assert_eq!(lost(&written.notes), [""; 0]);
+    assert_eq!(told(&path), expected(["deu", "eng", "gsw"], ["", "comment", "forced"]));
+    let handlers = probed(&path, "-select_streams a -show_entries stream_tags=handler_name -of csv=p=0");
+    assert_eq!(handlers.lines().collect::<Vec<_>>(), ["SoundHandler", "Words"]);
+    let path = folder.path().join("a.mov");
+    let written = write(&ffmpeg, &path, &settings(&info, None), 50).unwrap();
+    let told = lost(&written.notes);
+    assert!(told.iter().any(|note| note.contains("its language (gsw)")), "{told:?}");
+    assert!(told.iter().any(|note| note.contains("its role (comment)")), "{told:?}");
+    assert!(!told.iter().any(|note| note.contains("deu")), "{told:?}");
+}
+
+/// Files that are attached go along where there is room, and other data by its container's code is told.
+#[test]
+fn what_lies_beside_the_streams_is_kept_or_told() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let [film, font] = ["film.mkv", "a.ttf"].map(|name| folder.path().join(name));
+    std::fs::write(&font, "a font").unwrap();
+    let attach = format!("-attach {} -metadata:s:t mimetype=application/x-truetype-font", font.display());
+    run(&format!("{} {attach} -c:v libx264", moving(64, 32, "25", 25)), &film);
+    let info = ffmpeg.probe(&film).unwrap();
+    for (name, is_kept) in [("a.mkv", true), ("a.mp4", false)] {
+        let path = folder.path().join(name);
+        let written = write(&ffmpeg, &path, &settings(&info, Some(0.2..0.6)), 10).unwrap();
+        assert_eq!(has(&path, b"a font"), is_kept, "{name}");
+        let is_told = written.notes.iter().any(|note| note.contains("attached file") && note.contains("left out"));
+        assert_eq!(is_told, !is_kept, "{name}: {:?}", written.notes);
+    }
+    // A stream of time codes under another name.
+    let source = source(&ffmpeg, folder.path()).path;
+    let data = std::fs::read(&source).unwrap();
+    let at = |from: usize| data[from..].windows(4).position(|name| name == b"tmcd").map(|at| from + at);
+    let places = std::iter::successors(at(0), |place| at(place + 4));
+    let mut data = data.clone();
+    places.for_each(|place| data[place..place + 4].copy_from_slice(b"camm"));
+    let path = folder.path().join("camm.mp4");
+    std::fs::write(&path, data).unwrap();
+    let info = ffmpeg.probe(&path).unwrap();
+    let written = write(&ffmpeg, &folder.path().join("b.mp4"), &settings(&info, None), 50).unwrap();
+    assert!(written.notes.iter().any(|note| note.contains("(data, camm) is left out")), "{:?}", written.notes);
 }
 
 /// Seconds of a file at which its sound is loud first.

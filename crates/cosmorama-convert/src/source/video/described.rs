@@ -6,8 +6,8 @@ use cosmorama::raster::{Channels, Depth, Transfer};
 use cosmorama_io::{Format, FrameList, Header, Metadata};
 use cosmorama_spec::{Shape, Spec};
 use cosmorama_video::{
-    Bounds, HalfPlace, OtherStream, SpatialTags, SphericalPose, SphericalProjection, StereoMode, StreamKind, Turn,
-    VideoInfo,
+    Bounds, HalfPlace, Labels, OtherStream, SpatialTags, SphericalPose, SphericalProjection, StereoMode, StreamKind,
+    Turn, VideoInfo,
 };
 
 /// Returns the header that all frames of a video share.
@@ -97,9 +97,11 @@ pub(super) fn facts(info: &VideoInfo, half: Option<HalfPlace>) -> Vec<(&'static 
 }
 
 fn told(stream: &OtherStream) -> String {
-    let language = stream.language.as_ref().map_or_else(String::new, |language| format!(" ({language})"));
     let channels = if stream.channels > 0 { format!(", {} channels", stream.channels) } else { String::new() };
-    format!("{}{channels}{language}", stream.codec)
+    let Labels { language, title, roles } = &stream.labels;
+    let labels: Vec<&str> = language.iter().chain(title).chain(roles).map(String::as_str).collect();
+    let labels = if labels.is_empty() { String::new() } else { format!(" ({})", labels.join(", ")) };
+    format!("{}{channels}{labels}", stream.codec)
 }
 
 /// Describes spherical tags in words.
