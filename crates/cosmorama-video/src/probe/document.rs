@@ -23,6 +23,10 @@ pub(super) const PATIENCE: Duration = Duration::from_secs(60);
 /// Bytes of ffprobe's answer.
 const ANSWER: usize = 16 << 20;
 
+/// Options by which ffprobe looks for pictures for a minute, and not for five seconds: in a film that was cut out, they may begin long after
+/// the sound.
+const FAR: [&str; 4] = ["-analyzeduration", "60000000", "-probesize", "67108864"];
+
 /// Frames in a second from which on a duration tells no number of them.
 const FASTEST: f64 = 1e6;
 
@@ -42,9 +46,10 @@ impl Ffmpeg {
 
     fn probed(&self, path: &Path, stream: Option<u32>) -> Result<VideoInfo, VideoError> {
         let cut = looked_at(path)?;
-        let said =
-            self.ffprobe(path, &["-of", "json", "-show_format", "-show_streams", "-show_chapters"], ANSWER, PATIENCE)?;
-        let mut document = document(path, &said, cut)?;
+        let mut document = self.document(path, &[], cut)?;
+        if streams(&document).iter().any(|stream| is_video(stream) && !is_seen(stream)) {
+            document = self.document(path, &FAR, cut)?;
+        }
         let no_video = || VideoError::NoVideo { path: path.to_owned(), reason: "it has no stream of video".to_owned() };
         let is_chosen = |found: &Value| {
             is_video(found) && stream.is_none_or(|index| found["index"].as_u64() == Some(u64::from(index)))
@@ -90,6 +95,12 @@ impl Ffmpeg {
         info.announced = info.announced.or_else(|| announced_by_duration(&info));
         self.complete(&mut info)?;
         Ok(info)
+    }
+
+    fn document(&self, path: &Path, arguments: &[&str], cut: Option<CutShort>) -> Result<Value, VideoError> {
+        let shown = ["-of", "json", "-show_format", "-show_streams", "-show_chapters"];
+        let said = self.ffprobe(path, &[arguments, &shown].concat(), ANSWER, PATIENCE)?;
+        document(path, &said, cut)
     }
 
     /// Finds where a stream begins, if its container does not tell it, or frames before that are left out. What cannot be listed has nothing
@@ -253,6 +264,11 @@ fn streams(document: &Value) -> &[Value] {
 fn is_video(stream: &Value) -> bool {
     let is_cover = stream["disposition"]["attached_pic"].as_i64() == Some(1);
     stream["codec_type"] == "video" && !is_cover
+}
+
+/// Returns whether ffprobe has seen a picture of the stream, or been told what they are.
+fn is_seen(stream: &Value) -> bool {
+    text(stream, "pix_fmt").is_some() && stream["width"].as_u64() != Some(0)
 }
 
 fn other(stream: &Value) -> OtherStream {

@@ -26,6 +26,25 @@ fn properties_are_read() {
     assert_eq!((info.cut, info.spatial), (None, None));
 }
 
+/// In a film that was cut out, sound may begin seconds before the pictures, whose first one must be a key frame.
+#[test]
+fn pictures_may_begin_long_after_the_sound() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    for (container, codec) in [("mkv", "libx264"), ("mp4", "libx264"), ("ts", "libx264"), ("mkv", "mpeg2video")] {
+        let [film, cut] = ["film", "cut"].map(|name| folder.path().join(name).with_extension(container));
+        let sound = "-f lavfi -i sine=duration=12";
+        run(&format!("{} {sound} -c:v {codec} -g 250 -bf 0 -c:a mp2", moving(64, 32, "25", 300)), &film);
+        run(&format!("-i {} -ss 1 -c copy", film.display()), &cut);
+        let (whole, found) =
+            (frames(&ffmpeg, &film, ReadOptions::default()), frames(&ffmpeg, &cut, ReadOptions::default()));
+        let (whole, found) = (whole.unwrap(), found.unwrap());
+        assert_eq!(found.len(), 50, "{container}, {codec}");
+        let pairs = whole[250..].iter().zip(&found);
+        assert!(pairs.into_iter().all(|(a, b)| a.image.samples() == b.image.samples()), "{container}, {codec}");
+    }
+}
+
 /// RGB through FFV1 is equal, by both ways of ffmpeg to it.
 #[test]
 fn what_is_stored_without_loss_comes_without_loss() {
