@@ -143,10 +143,11 @@ fn say_as_it_is(lines: &str) {
     let _ = stderr().write_all(escaped(lines).as_bytes());
 }
 
-/// Returns a text whose control characters, as names of files may hold them, are escaped as in JSON: a terminal obeys them. Ends of
-/// lines and tabs stay.
+/// Returns a text whose control characters, as names of files may hold them, are escaped as in JSON: a terminal obeys them, also those that
+/// turn the direction of writing. Ends of lines and tabs stay.
 fn escaped(text: &str) -> Cow<'_, str> {
-    let is_harmful = |c: char| c.is_control() && !matches!(c, '\n' | '\t');
+    let turns = |c: char| matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    let is_harmful = |c: char| (c.is_control() && !matches!(c, '\n' | '\t')) || turns(c);
     if !text.contains(is_harmful) {
         return text.into();
     }
@@ -174,6 +175,7 @@ mod tests {
     #[test]
     fn no_name_commands_a_terminal() {
         assert_eq!(escaped("a\u{1b}[2J\r\u{7}\u{9b}b\u{7f}\n\tc"), "a\\u001b[2J\\u000d\\u0007\\u009bb\\u007f\n\tc");
+        assert_eq!(escaped("a\u{202e}gpj.exe"), "a\\u202egpj.exe");
         assert!(matches!(escaped("plain, ä"), Cow::Borrowed(_)));
     }
 }

@@ -97,8 +97,9 @@ const LEVELS: [&str; 3] = ["[error] ", "[fatal] ", "[panic] "];
 /// Messages of the level of errors that are about nothing that is seen: pictures that a broken link or an early start takes away
 /// are dropped, and then missed by their numbers; of two pictures of one time, the second is told of. One that is not in its packet is missed, too:
 /// of that, a parser speaks long before its time.
-const HARMLESS: [&str; 5] = [
+const HARMLESS: [&str; 6] = [
     "co located POCs unavailable",
+    "incomplete attachment",
     "mmco: unref short failure",
     "Last message repeated",
     "missing picture in access unit",

@@ -277,13 +277,13 @@ fn other(stream: &Value) -> OtherStream {
         StreamKind::Data if code == "tmcd" => StreamKind::TimeCode,
         kind => kind,
     };
-    // Of data, ffprobe knows few codecs, and the container's code tells as much.
-    let code = Some(code).filter(|_| kind == StreamKind::Data);
+    // Of data, ffprobe knows few codecs, and the container's code, if it is one, tells more.
+    let code = Some(code).filter(|code| kind == StreamKind::Data && !code.is_empty() && !code.contains('['));
     let number = |name: &str| stream[name].as_u64().and_then(|number| u32::try_from(number).ok()).unwrap_or(0);
     OtherStream {
         index: number("index"),
         kind,
-        codec: text(stream, "codec_name").or(code).unwrap_or_default().to_owned(),
+        codec: code.or_else(|| text(stream, "codec_name")).unwrap_or_default().to_owned(),
         labels: Labels::of(stream),
         channels: number("channels"),
     }
@@ -295,7 +295,7 @@ fn timecode(video: &Value, streams: &[Value], format: &Value) -> Option<String> 
 }
 
 /// Names that containers write for themselves.
-const OWN: [&str; 5] = ["major_brand", "minor_version", "compatible_brands", "encoder", "duration"];
+const OWN: [&str; 6] = ["major_brand", "minor_version", "compatible_brands", "encoder", "duration", "timecode"];
 
 fn metadata(format: &Value) -> Vec<(String, String)> {
     let tags = format["tags"].as_object().into_iter().flatten();

@@ -171,7 +171,7 @@ pub struct OtherStream {
     pub index: u32,
     /// Kind.
     pub kind: StreamKind,
-    /// Name of the codec, or the container's code for it; empty if neither is known.
+    /// Name of the codec, or, of data, the container's code for it; empty if none is known.
     pub codec: String,
     /// Language, title and roles.
     pub labels: Labels,

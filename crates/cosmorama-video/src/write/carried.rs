@@ -37,6 +37,9 @@ enum Answer {
 /// Seconds in which nothing is seen or heard.
 const INSTANT: f64 = 1e-3;
 
+/// Seconds before a part from which on its film is read: sound may lie so long before the pictures of its time in the file.
+const BEFORE: f64 = 5.0;
+
 /// Seconds below which a shift is a rounding error.
 const NOTHING: f64 = 1e-4;
 
@@ -73,21 +76,20 @@ impl Plan {
         // Seconds are counted from the first frame, by ffmpeg from the file's beginning.
         let first = info.start as f64 * info.time_base.to_f64() - info.file_start;
         let start = first + seconds.as_ref().map_or(0.0, |seconds| seconds.start);
-        plan.input.extend(input_limits().map(OsString::from));
         let is_later = start > NOTHING;
         if is_later {
             // Packets that begin before would be copied, from the last key frame of the pictures on.
             plan.output.extend(["-copypriorss".to_owned(), "0".to_owned()]);
-            plan.input.extend(["-ss".to_owned(), format!("{start:.6}")].map(OsString::from));
         }
         if let Some(seconds) = seconds {
             let length = (seconds.end - seconds.start).max(0.0);
-            plan.input.extend(["-t".to_owned(), format!("{length:.6}")].map(OsString::from));
-            // Chapters that begin later are left out by the output's length alone; one that begins at its very end would be empty.
-            let shorter = (0.25 / settings.rate().to_f64()).min(INSTANT);
+            // A chapter that begins at its very end would be empty.
+            let shorter = (0.25 / settings.rate().to_f64()).min(2.0 * INSTANT);
             plan.output.extend(["-t".to_owned(), format!("{:.6}", length - shorter)]);
         }
-        plan.input.extend([OsString::from("-i"), url(&info.path)]);
+        // Filters of the user's own stand in the place of the one that cuts sound off.
+        let has_filters = settings.arguments.iter().any(|word| word == "-af" || word.starts_with("-filter"));
+        plan.add_input(info, start, if has_filters { start } else { start - BEFORE });
         let beginning = if !is_later {
             Beginning::Along
         } else if start < UNSEEN {
@@ -99,7 +101,7 @@ impl Plan {
         plan.fields = container.has_boxes() && is_boxes(&info.container);
         // They are taken from an instant later on, without one that ends where the part begins.
         let has_earlier = is_later && info.chapters > 0;
-        let chapters = if has_earlier { plan.add_input(info, Some(start + INSTANT)) } else { 1 };
+        let chapters = if has_earlier { plan.add_input(info, start + INSTANT, start) } else { 1 };
         plan.output.extend(["-map_metadata", "1", "-map_chapters", &chapters.to_string()].map(str::to_owned));
         for name in ["major_brand", "minor_version", "compatible_brands"] {
             plan.output.extend(["-metadata".to_owned(), format!("{name}=")]);
@@ -112,11 +114,11 @@ impl Plan {
         let Way { info, container, beginning, .. } = *way;
         let name = format!("stream {} (video, {})", info.stream, info.codec);
         let video = Labelled { name, kind: StreamKind::Video, labels: info.labels.clone() };
-        self.output.extend(video.of_video(container));
+        self.output.extend(video.arguments("v:0", container));
         self.labelled.push(video);
         for stream in &info.others {
             // MOV keeps the names of its chapters in a stream.
-            let are_chapters = stream.codec == "bin_data" && info.chapters > 0;
+            let are_chapters = stream.kind == StreamKind::Data && stream.codec == "text" && info.chapters > 0;
             if !are_chapters {
                 self.add(stream, way);
             }
@@ -128,12 +130,16 @@ impl Plan {
         }
     }
 
-    /// Adds the file once more, from some seconds on, and returns the input's number.
-    fn add_input(&mut self, info: &VideoInfo, start: Option<f64>) -> usize {
+    /// Adds the file as an input whose times count from `start`, and which is read from the second `seek` on. Returns the input's number.
+    fn add_input(&mut self, info: &VideoInfo, start: f64, seek: f64) -> usize {
         self.input.extend(input_limits().map(OsString::from));
-        if let Some(start) = start {
-            self.input.extend(["-ss".to_owned(), format!("{start:.6}")].map(OsString::from));
+        let seek = seek.max(0.0);
+        if seek > NOTHING {
+            self.input.extend(["-ss".to_owned(), format!("{seek:.6}")].map(OsString::from));
         }
+        // Without a shift, ffmpeg counts transport streams from the first of the streams that it takes, and not of all.
+        let shift = if start - seek > NOTHING { seek - start } else { 1e-6 };
+        self.input.extend(["-itsoffset".to_owned(), format!("{shift:.6}")].map(OsString::from));
         self.input.extend([OsString::from("-i"), url(&info.path)]);
         self.input.iter().filter(|argument| *argument == "-i").count()
     }
@@ -152,7 +158,12 @@ impl Plan {
                 ));
             }
             Answer::Leave => {
-                return self.notes.push(format!("{name} is left out: {} has no room for it", container.name()));
+                let reason = match stream.kind {
+                    StreamKind::Video => "one video is written".to_owned(),
+                    _ if stream.codec.is_empty() => "nobody knows its codec".to_owned(),
+                    _ => format!("{} has no room for it", container.name()),
+                };
+                return self.notes.push(format!("{name} is left out: {reason}"));
             }
             Answer::Copy => "copy",
             Answer::Code(encoder) => {
@@ -168,7 +179,7 @@ impl Plan {
         };
         let at = format!("{at}:{}", self.labelled.iter().filter(|other| other.kind == stream.kind).count());
         let input = match beginning {
-            Beginning::File if stream.kind == StreamKind::Subtitle => self.add_input(info, None),
+            Beginning::File if stream.kind == StreamKind::Subtitle => self.add_input(info, 0.0, 0.0),
             _ => 1,
         };
         if starts_with_part && encoder != "copy" {
@@ -177,12 +188,15 @@ impl Plan {
         }
         let map = format!("{input}:{}", stream.index);
         self.output.extend(["-map".to_owned(), map, format!("-c:{at}"), encoder.to_owned()]);
+        if stream.kind == StreamKind::Audio && encoder != "copy" && beginning != Beginning::Along {
+            self.output.extend([format!("-filter:{at}"), "atrim=start=0".to_owned()]);
+        }
         if matches!(encoder, "aac" | "libopus") {
             self.output.extend([format!("-b:{at}"), format!("{}k", 96 * stream.channels.clamp(1, 16))]);
         }
         self.sounds += usize::from(stream.kind == StreamKind::Audio);
         let labelled = Labelled { name, kind: stream.kind, labels: stream.labels.clone() };
-        self.output.extend(labelled.beyond_copying(&at, container));
+        self.output.extend(labelled.arguments(&at, container));
         self.labelled.push(labelled);
     }
 
@@ -213,6 +227,7 @@ fn answer(stream: &OtherStream, container: Container) -> Answer {
 fn sound(codec: &str, container: Container) -> Answer {
     let is_raw = codec.starts_with("pcm_");
     match container {
+        _ if codec.is_empty() => Answer::Leave,
         Container::Matroska => Answer::Copy,
         Container::WebM if matches!(codec, "opus" | "vorbis") => Answer::Copy,
         Container::WebM => Answer::Code("libopus"),
@@ -233,7 +248,7 @@ fn subtitle(codec: &str, container: Container) -> Answer {
         (Container::Mp4 | Container::Mov, _) if is_text => Answer::Code("mov_text"),
         (Container::WebM, _) if is_text => Answer::Code("webvtt"),
         (Container::Matroska, "mov_text") => Answer::Code("srt"),
-        (Container::Matroska, "eia_608" | "") => Answer::Leave,
+        (_, "") | (Container::Matroska, "eia_608") => Answer::Leave,
         (Container::Matroska, _) => Answer::Copy,
         _ => Answer::Leave,
     }

@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::Container;
-use crate::labels::tag;
+use crate::labels::DEFAULT;
 use crate::{Labels, StreamKind};
 
 /// Languages for which QuickTime's list, as ffmpeg has it, holds another code than this one of ISO 639-2.
@@ -39,53 +39,85 @@ pub(super) struct Labelled {
     pub(super) labels: Labels,
 }
 
-/// Names under which containers keep a title.
-const TITLES: [&str; 3] = ["title", "name", "handler_name"];
+/// Bytes of the name of a handler in MOV, which are counted by one byte.
+const LONGEST_HANDLER: usize = 255;
+
+/// Letters of a title, and names of tags, that a message repeats.
+const REPEATED: usize = 60;
+const NAMED: usize = 8;
 
 impl Labelled {
-    /// Returns arguments for the video, which ffmpeg gets without labels.
-    pub(super) fn of_video(&self, container: Container) -> Vec<String> {
-        let Labels { language, title, roles } = &self.labels;
-        let language = language.as_ref().map(|language| format!("language={language}"));
-        let title = title.as_ref().map(|title| format!("title={title}"));
-        let mut arguments = metadata("v:0", language.into_iter().chain(title));
-        if !roles.is_empty() {
-            arguments.extend(["-disposition:v:0".to_owned(), format!("default+{}", roles.join("+"))]);
+    /// Returns arguments for the labels of the stream at a place, such as `a:0`.
+    pub(super) fn arguments(&self, at: &str, container: Container) -> Vec<String> {
+        let Labels { language, title, is_default, roles, tags } = &self.labels;
+        let language = language.as_deref().map(|language| format!("language={}", in_container(language, container)));
+        let title = title.as_ref().filter(|title| container != Container::Mov || title.len() <= LONGEST_HANDLER);
+        let name = if container.has_boxes() { "handler_name" } else { "title" };
+        let title = title.map(|title| format!("{name}={title}"));
+        let tags = tags.iter().map(|(name, value)| format!("{name}={value}"));
+        let metadata = language.into_iter().chain(title).chain(tags);
+        let mut arguments: Vec<String> = metadata.flat_map(|value| [format!("-metadata:s:{at}"), value]).collect();
+        if self.kind != StreamKind::Attachment {
+            let default = is_default.then_some(DEFAULT);
+            let all: Vec<&str> = default.into_iter().chain(roles.iter().map(String::as_str)).collect();
+            let all = if all.is_empty() { "0".to_owned() } else { all.join("+") };
+            arguments.extend([format!("-disposition:{at}"), all]);
         }
-        [arguments, self.beyond_copying("v:0", container)].concat()
-    }
-
-    /// Returns arguments for what the container would not keep of the stream at a place, such as `a:0`.
-    pub(super) fn beyond_copying(&self, at: &str, container: Container) -> Vec<String> {
-        let title = self.labels.title.as_ref().filter(|_| container.has_boxes());
-        let title = title.map(|title| format!("handler_name={title}"));
-        let language = self.labels.language.as_deref().and_then(|language| in_quicktime(language, container));
-        metadata(at, title.into_iter().chain(language.map(|language| format!("language={language}"))))
+        arguments
     }
 
     /// Returns what a stream that was written has not kept, in words; `None` where it has all.
     pub(super) fn lost(&self, written: &Value, container: Container) -> Option<String> {
-        let has = |names: &[&str], value: &str| names.iter().any(|name| tag(written, name) == Some(value));
-        let language = self.labels.language.as_deref().filter(|language| {
-            !has(&["language"], language)
-                && in_quicktime(language, container).is_none_or(|other| !has(&["language"], other))
-        });
-        let title = self.labels.title.as_deref().filter(|title| !has(&TITLES, title));
-        let kept = Labels::of(written).roles;
-        let roles = self.labels.roles.iter().filter(|role| !kept.contains(role));
-        let told = language.map(|language| format!("its language ({})", language.escape_debug()));
-        let told = told.into_iter().chain(title.map(|title| format!("its title ({})", title.escape_debug())));
-        let told: Vec<String> = told.chain(roles.map(|role| format!("its role ({role})"))).collect();
-        (!told.is_empty()).then(|| told.join(", "))
+        let Labels { language, title, roles, tags, .. } = &self.labels;
+        let found = Labels::of(written);
+        let mut lost = Vec::new();
+        if let Some(language) =
+            language.as_deref().filter(|language| !is_language(found.language.as_deref(), language, container))
+        {
+            let instead = found.language.map_or_else(String::new, |other| format!("; it has {}", other.escape_debug()));
+            lost.push(format!("its language ({}{instead})", language.escape_debug()));
+        }
+        if let Some(title) = title.as_ref().filter(|title| found.title.as_ref() != Some(title)) {
+            lost.push(format!("its title ({})", beginning(title)));
+        }
+        lost.extend(roles.iter().filter(|role| !found.roles.contains(role)).map(|role| format!("its role ({role})")));
+        lost.extend(lost_tags(tags, written).map(|names| format!("its tags ({names})")));
+        (!lost.is_empty()).then(|| lost.join(", "))
     }
 }
 
-fn metadata(at: &str, values: impl Iterator<Item = String>) -> Vec<String> {
-    values.flat_map(|value| [format!("-metadata:s:{at}"), value]).collect()
+/// Returns the names of tags whose values are not among those that were written; `None` where all are.
+pub(super) fn lost_tags(tags: &[(String, String)], written: &Value) -> Option<String> {
+    let kept: Vec<&str> =
+        written["tags"].as_object().into_iter().flatten().filter_map(|(_, value)| value.as_str()).collect();
+    // Containers have names of their own for them.
+    let lost: Vec<&str> =
+        tags.iter().filter(|(_, value)| !kept.contains(&value.as_str())).map(|(name, _)| name.as_str()).collect();
+    let mut names: Vec<String> = lost.iter().take(NAMED).map(|name| beginning(name)).collect();
+    if lost.len() > NAMED {
+        names.push(format!("{} more", lost.len() - NAMED));
+    }
+    (!names.is_empty()).then(|| names.join(", "))
 }
 
-/// Returns the code that stands for a language in MOV, if it is another.
-fn in_quicktime(language: &str, container: Container) -> Option<&'static str> {
-    let (_, other) = QUICKTIME.iter().find(|(known, _)| container == Container::Mov && *known == language)?;
-    Some(*other)
+/// Returns the first letters of a text, for a message.
+fn beginning(text: &str) -> String {
+    let rest = if text.chars().nth(REPEATED).is_some() { "…" } else { "" };
+    format!("{}{rest}", text.chars().take(REPEATED).collect::<String>().escape_debug())
+}
+
+fn is_language(found: Option<&str>, language: &str, container: Container) -> bool {
+    found.is_some_and(|found| {
+        found == language || (found == in_container(language, container) && !language.contains('-'))
+    })
+}
+
+/// Returns the code that stands for a language in a container. MP4 and MOV hold none of regions.
+fn in_container(language: &str, container: Container) -> &str {
+    if !container.has_boxes() {
+        return language;
+    }
+    let language = language.split('-').next().unwrap_or(language);
+    let other = QUICKTIME.iter().find(|(known, _)| container == Container::Mov && *known == language);
+    other.map_or(language, |(_, other)| other)
 }

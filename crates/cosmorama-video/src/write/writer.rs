@@ -164,14 +164,15 @@ impl VideoWriter {
         let of = of.unwrap_or_default();
         self.plan.notes.extend(complaint.map(|text| format!("ffmpeg says{of}: {text}")));
         self.add_boxes()?;
+        let is_ours = !self.settings.arguments.iter().any(|word| decides_what_goes_along(word));
+        let metadata = self.settings.source.as_ref().map(|source| source.info.metadata.as_slice());
         let expected = Expected {
             frames: self.count,
             size: self.settings.size,
-            // Arguments of the user's own may leave sound out.
-            sounds: self.settings.arguments.is_empty().then_some(self.plan.sounds),
             is_spherical: self.settings.spatial.is_some_and(|tags| tags.projection.is_some()),
             container: self.container,
-            labelled: &self.plan.labelled,
+            labelled: if is_ours { &self.plan.labelled } else { &[] },
+            metadata: metadata.filter(|_| is_ours).unwrap_or_default(),
         };
         let lost = expected.verify(&self.ffmpeg, self.pending.path(), &self.path)?;
         self.plan.notes.extend(lost);
@@ -256,6 +257,12 @@ impl VideoWriter {
         let reason = if own.is_empty() { words } else { format!("{words}; its further arguments were {own}") };
         VideoError::Encode { path: self.path.clone(), reason }
     }
+}
+
+/// Returns whether an argument of the user's own decides what goes along with the pictures.
+fn decides_what_goes_along(word: &str) -> bool {
+    ["-an", "-sn", "-dn"].contains(&word)
+        || ["-map", "-metadata", "-disposition"].iter().any(|option| word.starts_with(option))
 }
 
 /// Returns whether a message means that the file is not whole, even where ffmpeg then ends with success.

@@ -188,12 +188,91 @@ fn labels_of_streams_go_along() {
     assert_eq!(told(&path), expected(["deu", "eng", "gsw"], ["", "comment", "forced"]));
     let handlers = probed(&path, "-select_streams a -show_entries stream_tags=handler_name -of csv=p=0");
     assert_eq!(handlers.lines().collect::<Vec<_>>(), ["SoundHandler", "Words"]);
+    // From the name of the handler, the title comes back.
+    let info = ffmpeg.probe(&path).unwrap();
+    let again = folder.path().join("b.mkv");
+    write(&ffmpeg, &again, &settings(&info, None), 50).unwrap();
+    assert_eq!(ffmpeg.probe(&again).unwrap().others[1].labels.title.as_deref(), Some("Words"));
     let path = folder.path().join("a.mov");
+    let info = ffmpeg.probe(&film).unwrap();
     let written = write(&ffmpeg, &path, &settings(&info, None), 50).unwrap();
     let told = lost(&written.notes);
     assert!(told.iter().any(|note| note.contains("its language (gsw)")), "{told:?}");
     assert!(told.iter().any(|note| note.contains("its role (comment)")), "{told:?}");
     assert!(!told.iter().any(|note| note.contains("deu")), "{told:?}");
+}
+
+/// Tags of the film and of its streams go along, or are told by their names, unless the user's own arguments decide on them.
+#[test]
+fn tags_go_along_or_are_told() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let film = folder.path().join("film.mkv");
+    let tags =
+        "-metadata artist=Somebody -metadata mytag=mine -metadata:s:v custom=ours -metadata:s:a:0 language=por-BR";
+    run(&format!("{} -f lavfi -i sine=duration=1 -c:v libx264 -c:a aac {tags}", moving(64, 32, "25", 25)), &film);
+    let info = ffmpeg.probe(&film).unwrap();
+    for (name, expected) in
+        [("a.mkv", &[][..]), ("a.mp4", &["the film", "(mytag)", "(custom)", "(por-BR; it has por)"])]
+    {
+        let path = folder.path().join(name);
+        let written = write(&ffmpeg, &path, &settings(&info, None), 25).unwrap();
+        let told = written.notes.join("\n").to_ascii_lowercase();
+        for part in expected {
+            assert!(told.contains(&part.to_ascii_lowercase()), "{name}: {told}");
+        }
+        assert!(!expected.is_empty() || !told.contains("loses"), "{name}: {told}");
+        let artist = probed(&path, "-show_entries format_tags=artist -of csv=p=0");
+        assert_eq!(artist.trim(), "Somebody");
+    }
+    let own = ["-metadata:s:a:0", "language=fra"].map(str::to_owned).to_vec();
+    let path = folder.path().join("own.mp4");
+    let written = write(&ffmpeg, &path, &WriteSettings { arguments: own, ..settings(&info, None) }, 25).unwrap();
+    assert!(!written.notes.iter().any(|note| note.contains("loses")), "{:?}", written.notes);
+    assert_eq!(ffmpeg.probe(&path).unwrap().others[0].labels.language.as_deref(), Some("fra"));
+}
+
+/// Sound of which a part has nothing is told, and the rest is written.
+#[test]
+fn a_part_without_sound_is_written() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let film = folder.path().join("film.mp4");
+    run(&format!("{} -f lavfi -i sine=duration=1 -c:v libx264 -c:a aac", moving(64, 32, "25", 50)), &film);
+    let info = ffmpeg.probe(&film).unwrap();
+    for (name, part, is_told) in [("a.mp4", 1.2..2.0, true), ("a.mkv", 1.2..2.0, true), ("b.mp4", 0.8..1.6, false)] {
+        let path = folder.path().join(name);
+        let written = write(&ffmpeg, &path, &settings(&info, Some(part)), 20).unwrap();
+        assert_eq!(
+            written.notes.iter().any(|note| note.contains("has nothing")),
+            is_told,
+            "{name}: {:?}",
+            written.notes
+        );
+    }
+}
+
+/// In a transport stream, times count from the first of its streams, whichever go along.
+#[test]
+fn late_sound_of_transport_streams_stays_late() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let sound = "-itsoffset 0.6 -f lavfi -i sine=duration=1";
+    for name in ["film.ts", "film.mpg", "film.mkv"] {
+        let film = folder.path().join(name);
+        run(&format!("{} {sound} -c:v mpeg2video -bf 0 -c:a mp2", moving(64, 32, "25", 50)), &film);
+        let info = ffmpeg.probe(&film).unwrap();
+        for (part, expected) in [(None, 0.6), (Some(0.2..2.0), 0.4), (Some(0.8..2.0), 0.0)] {
+            for output in ["a.mkv", "a.webm"] {
+                let path = folder.path().join(output);
+                let frames = part.as_ref().map_or(50, |part| ((part.end - part.start) * 25.0_f64).round() as u32);
+                write(&ffmpeg, &path, &settings(&info, part.clone()), frames).unwrap();
+                let times = probed(&path, "-select_streams a -show_entries packet=pts_time -of csv=p=0");
+                let first: f64 = times.lines().next().unwrap().trim_end_matches(',').parse().unwrap();
+                assert!((first - expected).abs() < 0.05, "{name} to {output}, {part:?}: {first} s");
+            }
+        }
+    }
 }
 
 /// Files that are attached go along where there is room, and other data by its container's code is told.
@@ -213,18 +292,29 @@ fn what_lies_beside_the_streams_is_kept_or_told() {
         let is_told = written.notes.iter().any(|note| note.contains("attached file") && note.contains("left out"));
         assert_eq!(is_told, !is_kept, "{name}: {:?}", written.notes);
     }
-    // A stream of time codes under another name.
-    let source = source(&ffmpeg, folder.path()).path;
-    let data = std::fs::read(&source).unwrap();
-    let at = |from: usize| data[from..].windows(4).position(|name| name == b"tmcd").map(|at| from + at);
-    let places = std::iter::successors(at(0), |place| at(place + 4));
-    let mut data = data.clone();
-    places.for_each(|place| data[place..place + 4].copy_from_slice(b"camm"));
-    let path = folder.path().join("camm.mp4");
-    std::fs::write(&path, data).unwrap();
-    let info = ffmpeg.probe(&path).unwrap();
-    let written = write(&ffmpeg, &folder.path().join("b.mp4"), &settings(&info, None), 50).unwrap();
-    assert!(written.notes.iter().any(|note| note.contains("(data, camm) is left out")), "{:?}", written.notes);
+    // The stream of time codes, and that of sound, under other names.
+    let raw = folder.path().join("raw.mov");
+    run(&format!("{} -f lavfi -i sine=duration=2 -c:v libx264 -c:a pcm_s16le", moving(64, 32, "25", 50)), &raw);
+    let with_chapters = source(&ffmpeg, folder.path()).path;
+    for (film, from, to, expected) in [
+        (&with_chapters, b"tmcd", b"camm", "(data, camm) is left out"),
+        (&with_chapters, b"tmcd", b"gpmd", "(data, gpmd) is left out"),
+        (&raw, b"sowt", b"zzzz", "(sound, ) is left out: nobody knows its codec"),
+    ] {
+        let path = folder.path().join("renamed.mov");
+        std::fs::write(&path, renamed(&std::fs::read(film).unwrap(), from, to)).unwrap();
+        let info = ffmpeg.probe(&path).unwrap();
+        let written = write(&ffmpeg, &folder.path().join("b.mp4"), &settings(&info, None), 50).unwrap();
+        assert!(written.notes.iter().any(|note| note.contains(expected)), "{expected}: {:?}", written.notes);
+    }
+}
+
+/// A file with another name of a box, wherever it stands.
+fn renamed(file: &[u8], from: &[u8; 4], to: &[u8; 4]) -> Vec<u8> {
+    let places = (0..file.len() - 3).filter(|at| file[*at..*at + 4] == *from);
+    let mut file = file.to_vec();
+    places.collect::<Vec<_>>().into_iter().for_each(|at| file[at..at + 4].copy_from_slice(to));
+    file
 }
 
 /// Seconds of a file at which its sound is loud first.
@@ -274,7 +364,9 @@ fn a_part_has_no_empty_chapters() {
     let folder = tempfile::tempdir().unwrap();
     let info = source(&ffmpeg, folder.path());
     for name in ["a.mp4", "a.mkv"] {
-        for (part, frames, title) in [(0.0..1.0, 25, "One"), (1.0..2.0, 25, "Two"), (0.4..0.6, 5, "One")] {
+        for (part, frames, title) in
+            [(0.0..1.0, 25, "One"), (1.0..2.0, 25, "Two"), (0.4..0.6, 5, "One"), (0.4..1.0, 15, "One")]
+        {
             let path = folder.path().join(name);
             write(&ffmpeg, &path, &settings(&info, Some(part.clone())), frames).unwrap();
             let titles = probed(&path, "-show_entries chapter_tags=title -of csv=p=0");

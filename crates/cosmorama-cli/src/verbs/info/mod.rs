@@ -296,6 +296,7 @@ fn lines(report: &Value, indent: usize) -> String {
     fields.iter().map(line).collect()
 }
 
+/// Returns a value in one line: what a file tells of itself begins no line of ours.
 fn plain(value: &Value) -> String {
-    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+    value.as_str().map_or_else(|| value.to_string(), |text| text.replace('\n', "\\n"))
 }

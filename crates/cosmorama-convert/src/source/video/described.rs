@@ -98,7 +98,7 @@ pub(super) fn facts(info: &VideoInfo, half: Option<HalfPlace>) -> Vec<(&'static 
 
 fn told(stream: &OtherStream) -> String {
     let channels = if stream.channels > 0 { format!(", {} channels", stream.channels) } else { String::new() };
-    let Labels { language, title, roles } = &stream.labels;
+    let Labels { language, title, roles, .. } = &stream.labels;
     let labels: Vec<&str> = language.iter().chain(title).chain(roles).map(String::as_str).collect();
     let labels = if labels.is_empty() { String::new() } else { format!(" ({})", labels.join(", ")) };
     format!("{}{channels}{labels}", stream.codec)
