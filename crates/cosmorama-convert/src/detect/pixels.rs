@@ -63,7 +63,10 @@ pub fn damage_of(files: &dyn Files, path: &Path, memory: MemoryBudget) -> Option
     }
 }
 
-/// Replaces an error about what files seem to lack by the error about damage, if the pixels of one of them cannot be
+/// Bytes of a picture that is read for a better message.
+const FOR_A_MESSAGE: u64 = 1 << 26;
+
+/// Replaces an error about what files seem to lack by the error about damage, if the pixels of one of them, which is not large, cannot be
 /// read. They are read one by one: the memory is for one of them.
 pub(crate) fn unless_damaged(
     (files, memory): (&dyn Files, MemoryBudget),
@@ -71,6 +74,7 @@ pub(crate) fn unless_damaged(
     error: ConvertError,
 ) -> ConvertError {
     let is_of_content = matches!(error.code(), Code::Uncovered | Code::WrongSize | Code::Geometry | Code::Ambiguous);
+    let memory = memory.at_most(FOR_A_MESSAGE);
     let damage = |path: PathBuf| if is_of_content { damage_of(files, &path, memory) } else { None };
     paths.into_iter().find_map(damage).map_or(error, |damage| failed_as(Code::Damaged, damage))
 }

@@ -94,6 +94,11 @@ impl MemoryBudget {
         usize::try_from(self.bytes / bytes.max(1) as u64).unwrap_or(usize::MAX)
     }
 
+    /// Returns the budget with no more bytes than so many.
+    pub(crate) fn at_most(self, bytes: u64) -> Self {
+        Self { bytes: self.bytes.min(bytes), ..self }
+    }
+
     /// Returns the budget that is left when so many bytes are taken.
     pub(crate) fn beside(self, taken: u64) -> Self {
         Self { bytes: self.bytes.saturating_sub(taken), ..self }

@@ -96,14 +96,16 @@ const LEVELS: [&str; 3] = ["[error] ", "[fatal] ", "[panic] "];
 
 /// Messages of the level of errors that are about nothing that is seen: pictures that a broken link or an early start takes away
 /// are dropped, and then missed by their numbers; of two pictures of one time, the second is told of. One that is not in its packet is missed, too:
-/// of that, a parser speaks long before its time.
-const HARMLESS: [&str; 6] = [
+/// of that, a parser speaks long before its time. Where a seek fails, frames are read from elsewhere, and numbered by their times. Attached files are
+/// no pictures.
+const HARMLESS: [&str; 7] = [
     "co located POCs unavailable",
     "incomplete attachment",
     "mmco: unref short failure",
     "Last message repeated",
     "missing picture in access unit",
     "non monotonically increasing dts to muxer",
+    "read_timestamp",
 ];
 
 /// Returns the events that a line tells, in their order; none for other messages.

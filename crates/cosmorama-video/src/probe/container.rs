@@ -3,11 +3,17 @@
 /// Name of AVI.
 pub(crate) const AVI: &str = "avi";
 
+/// Name of GIF.
+pub(crate) const GIF: &str = "gif";
+
 /// Name of FLV.
 pub(super) const FLV: &str = "flv";
 
 /// Name of NUT.
 pub(super) const NUT: &str = "nut";
+
+/// Name of Ogg.
+pub(super) const OGG: &str = "ogg";
 
 /// Name of ASF, which WMV is, too.
 pub(super) const ASF: &str = "asf";
@@ -20,6 +26,11 @@ pub(crate) fn is_boxes(container: &str) -> bool {
 /// Returns whether a container is Matroska or WebM.
 pub(super) fn is_matroska(container: &str) -> bool {
     container.starts_with("matroska")
+}
+
+/// Returns whether the duration of a container is the time at which its file ends, wherever that is.
+pub(super) fn ends_with_its_file(container: &str) -> bool {
+    ["dv", NUT, OGG].contains(&container)
 }
 
 /// Returns whether streams of a container may begin between key frames: those that are cut anywhere. Of bare H.264

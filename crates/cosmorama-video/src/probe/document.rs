@@ -7,7 +7,7 @@ use std::time::Duration;
 use serde_json::Value;
 
 use super::beginning::Beginning;
-use super::container::{ASF, AVI, FLV, NUT, begins_anywhere, is_boxes, is_matroska};
+use super::container::{ASF, AVI, FLV, NUT, OGG, begins_anywhere, ends_with_its_file, is_boxes, is_matroska};
 use super::first_frame::FirstFrame;
 use super::packets::CodedStream;
 use super::stream::{Stream, delay, is_statistic, ratio, text};
@@ -93,6 +93,9 @@ impl Ffmpeg {
         info.duration = info.duration.filter(|_| (container != ASF || others.is_empty()) && !info.is_bare());
         info.others = others;
         info.announced = info.announced.or_else(|| announced_by_duration(&info));
+        if cut.is_some() && ends_with_its_file(container) {
+            info.announced = None;
+        }
         self.complete(&mut info)?;
         Ok(info)
     }
@@ -118,8 +121,8 @@ impl Ffmpeg {
 
     /// Adds what only the file's boxes, or its first frame, tell.
     fn complete(&self, info: &mut VideoInfo) -> Result<(), VideoError> {
-        // Matroska tells a rate, whatever the times of its frames.
-        if is_matroska(&info.container) && !info.is_variable {
+        // Matroska tells a rate, whatever the times of its frames, and so does Ogg, where Theora repeats frames by packets without a byte.
+        if (is_matroska(&info.container) || info.container == OGG) && !info.is_variable {
             let evenness = self.evenness(info)?;
             info.is_variable = evenness != Evenness::Even;
             if let Evenness::Lacking(places) = evenness {

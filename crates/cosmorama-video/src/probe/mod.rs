@@ -15,7 +15,7 @@ mod turn;
 use std::path::PathBuf;
 
 pub(crate) use avi::{Places, Uncounted};
-pub(crate) use container::{AVI, is_boxes};
+pub(crate) use container::{AVI, GIF, is_boxes};
 use packets::CodedStream;
 pub(crate) use packets::{CodedFrame, shown_times};
 pub use timeline::Timeline;

@@ -24,6 +24,11 @@ pub(super) fn cut(file: &mut File) -> Option<CutShort> {
         [0x1a, 0x45, 0xdf, 0xa3, ..] => end_of_segment(file)?,
         [b'R', b'I', b'F', b'F', size @ .., _, _, _, _] => 8 + u64::from(u32::from_le_bytes(*size)),
         [b'F', b'L', b'V', ..] => size_in_flv(&beginning(file)?)?,
+        [b'O', b'g', b'g', b'S', ..] => end_of_pages(file, found)?,
+        [b'n', b'u', b't', b'/', ..] => end_of_index(file, found)?,
+        [0x1f, 7, 0, system, ..] if system & 0x3f == 0x3f => {
+            found.div_ceil(frame_of_dv(*system)) * frame_of_dv(*system)
+        }
         [0x30, 0x26, 0xb2, 0x75, ..] => size_in_asf(&beginning(file)?)?,
         [_, _, _, _, name @ .., _, _, _, _] if FIRST.contains(&name) => end_of_boxes(file, found)?,
         _ => return None,
@@ -92,6 +97,41 @@ fn size_in_asf(bytes: &[u8]) -> Option<u64> {
     let is_broadcast = properties.get(72)? & 1 == 1;
     let size = properties.get(24..)?.first_chunk()?;
     (!is_broadcast).then_some(u64::from_le_bytes(*size))
+}
+
+/// Returns the end of the last page of an Ogg file (RFC 3533), or the least one where its header is not whole.
+fn end_of_pages(file: &mut File, length: u64) -> Option<u64> {
+    const LONGEST: u64 = 27 + 255 + 255 * 255;
+    let start = length.saturating_sub(LONGEST);
+    file.seek(SeekFrom::Start(start)).ok()?;
+    let mut bytes = Vec::new();
+    file.take(LONGEST).read_to_end(&mut bytes).ok()?;
+    let at = bytes.windows(5).rposition(|window| window == b"OggS\0")?;
+    let page = bytes.get(at..)?;
+    let Some(segments) = page.get(26).and_then(|count| page.get(27..27 + usize::from(*count))) else {
+        return Some(length + 1);
+    };
+    let content: u64 = segments.iter().copied().map(u64::from).sum();
+    Some(start + at as u64 + 27 + segments.len() as u64 + content)
+}
+
+/// Returns the length of a NUT file that ends with an index, as ffmpeg always writes it unless it is told not to, or a greater one
+/// (NUT, version 3, index packet).
+fn end_of_index(file: &mut File, length: u64) -> Option<u64> {
+    const INDEX: [u8; 8] = *b"NX\xdd\x67\x2f\x23\xe6\x4e";
+    let start_of = |file: &mut File, before: u64| {
+        let mut number = [0; 8];
+        file.seek(SeekFrom::Start(length.checked_sub(before)?)).ok()?;
+        file.read_exact(&mut number).ok().map(|()| number)
+    };
+    // Its last number, before the sum, is its own length.
+    let own = u64::from_be_bytes(start_of(file, 12)?);
+    Some(if start_of(file, own) == Some(INDEX) { length } else { length + 1 })
+}
+
+/// Returns the bytes of a frame of DV, or a part of one of more data, by the mark of its system (IEC 61834-2, header section).
+fn frame_of_dv(system: u8) -> u64 {
+    if system & 0x80 == 0 { 120_000 } else { 144_000 }
 }
 
 /// Returns the end of a Matroska file's segment; `None` if its size is not said.
@@ -163,6 +203,19 @@ mod tests {
         assert_eq!((found(&asf(96, 2)), found(&asf(97, 3)), found(&asf(97, 2)[..90])), (None, None, None));
         assert_eq!(found(&asf(97, 2)), Some(CutShort { expected: 97, found: 96 }));
         assert_eq!(found(b"\x1a\x45\xdf\xa3\0\0\0\0\0\0\0\0\0\0\0"), None);
+        let page =
+            |length: u8| [&b"OggS\0\x04"[..], &[0; 20], &[2, 200, length], &[7; 200], &vec![7; length.into()]].concat();
+        let ogg = [page(3), page(5)].concat();
+        assert_eq!((found(&ogg), found(&ogg[..232])), (None, None));
+        assert_eq!(found(&ogg[..ogg.len() - 1]), Some(CutShort { expected: 466, found: 465 }));
+        assert_eq!(found(&ogg[..250]), Some(CutShort { expected: 251, found: 250 }));
+        let nut =
+            [&b"nut/multimedia container\0NX\xdd\x67\x2f\x23\xe6\x4e"[..], &20_u64.to_be_bytes(), b"\0\0\0\0"].concat();
+        assert_eq!(found(&nut), None);
+        assert_eq!(found(&nut[..nut.len() - 3]), Some(CutShort { expected: 43, found: 42 }));
+        let dv = [&b"\x1f\x07\0\x3f"[..], &vec![0; 239_996]].concat();
+        assert_eq!((found(&dv), found(&dv[..120_000])), (None, None));
+        assert_eq!(found(&dv[..120_001]), Some(CutShort { expected: 240_000, found: 120_001 }));
         assert_eq!(found(b"short"), None);
         assert_eq!(found(b"ffconcat version 1.0"), None);
     }

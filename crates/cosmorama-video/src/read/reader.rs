@@ -3,7 +3,7 @@ use super::decoder::{Decoded, Decoder, Ended, Next, Start};
 use super::filters::check_memory;
 use super::preceding::{Beside, DELAY, Damage, Looked, PATIENCE};
 use super::{Damaged, Fault, FrameCondition, ReadOptions, VideoFrame};
-use crate::probe::{AVI, Places, Uncounted};
+use crate::probe::{AVI, GIF, Places, Uncounted};
 use crate::{Announced, AnnouncedBy, CutShort, Ffmpeg, Timeline, VideoError, VideoInfo};
 use cosmorama::raster::{EncodedImage, FramePool};
 
@@ -564,7 +564,7 @@ impl VideoReader {
             (Some(frames), Some(told)) if self.info.container == AVI => frames.max(told.frames),
             (Some(frames), _) => frames,
             (None, Some(Announced { frames, by: AnnouncedBy::Count }))
-                if self.expected < frames && self.info.container != AVI =>
+                if self.expected < frames && ![AVI, GIF].contains(&self.info.container.as_str()) =>
             {
                 // Some frames may be there for others alone, as where a video was cut without coding it anew.
                 frames.min(self.ffmpeg.packet_times(&self.info)?.len() as u64)

@@ -405,13 +405,27 @@ fn a_file_without_its_end_is_called_cut() {
     assert!(matches!(error, VideoError::Cut { .. }), "{error}");
     // Nothing of it can be had.
     assert!(!error.to_string().contains("--damaged"), "{error}");
-    // One that counts no frames then.
-    let path = folder.path().join("b.wmv");
-    run(&format!("{} -c:v wmv2 -g 10", moving(128, 64, "25", 50)), &path);
-    cut(&path, 0.6);
-    let error = frames(&ffmpeg, &path, ReadOptions::default()).unwrap_err();
-    assert!(matches!(error, VideoError::Cut { .. }) && error.to_string().contains("--damaged"), "{error}");
-    assert!((10..50).contains(&frames(&ffmpeg, &path, with(Damaged::Skip)).unwrap().len()));
+    // Those that count no frames then.
+    for (name, size, codec) in [
+        ("b.wmv", (128, 64), "-c:v wmv2 -g 10"),
+        ("c.ogv", (128, 64), "-c:v libtheora -q:v 9 -g 10"),
+        ("d.nut", (128, 64), "-c:v ffv1 -g 1"),
+        ("e.dv", (720, 576), "-pix_fmt yuv420p"),
+    ] {
+        let path = folder.path().join(name);
+        run(&format!("{} {codec}", moving(size.0, size.1, "25", 50)), &path);
+        assert_eq!(frames(&ffmpeg, &path, ReadOptions::default()).unwrap().len(), 50, "{name}");
+        cut(&path, 0.609);
+        let error = frames(&ffmpeg, &path, ReadOptions::default()).unwrap_err();
+        assert!(matches!(error, VideoError::Cut { .. }) && error.to_string().contains("--damaged"), "{name}: {error}");
+        assert!((10..50).contains(&frames(&ffmpeg, &path, with(Damaged::Skip)).unwrap().len()), "{name}");
+    }
+    // One that counts them, to the one that is cut.
+    let path = folder.path().join("f.gif");
+    run(&moving(128, 64, "25", 50), &path);
+    cut(&path, 0.5);
+    let held = frames(&ffmpeg, &path, with(Damaged::Hold)).unwrap();
+    assert!(held.len() > 10 && held.last().unwrap().condition == FrameCondition::Held, "{}", held.len());
 }
 
 /// The third trap, of a count: fewer frames than the file announces, though its end is there.

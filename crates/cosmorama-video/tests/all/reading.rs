@@ -45,6 +45,21 @@ fn pictures_may_begin_long_after_the_sound() {
     }
 }
 
+/// Theora repeats a frame by a packet without a byte, which ffmpeg passes over.
+#[test]
+fn frames_that_theora_repeats_are_no_damage() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.ogv");
+    run("-f lavfi -i color=gray:s=64x32:r=25:d=2 -c:v libtheora -g 12", &path);
+    let info = ffmpeg.probe(&path).unwrap();
+    let found = frames(&ffmpeg, &path, ReadOptions::default()).unwrap();
+    assert!(info.is_variable && (2..50).contains(&found.len()), "{}", found.len());
+    assert!(found.iter().all(|frame| frame.condition == FrameCondition::Whole));
+    let seconds = found.last().unwrap().time as f64 * info.time_base.to_f64();
+    assert!((1.0..2.0).contains(&seconds), "{seconds}");
+}
+
 /// RGB through FFV1 is equal, by both ways of ffmpeg to it.
 #[test]
 fn what_is_stored_without_loss_comes_without_loss() {
