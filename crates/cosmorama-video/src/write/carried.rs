@@ -232,9 +232,9 @@ fn sound(codec: &str, container: Container) -> Answer {
         Container::WebM if matches!(codec, "opus" | "vorbis") => Answer::Copy,
         Container::WebM => Answer::Code("libopus"),
         Container::Mov if is_raw => Answer::Copy,
-        // Without loss, where MP4 has no raw samples.
-        Container::Mp4 if is_raw => Answer::Code("alac"),
-        Container::Mp4 if matches!(codec, "opus" | "flac") => Answer::Copy,
+        // Without loss, where MP4 has no raw samples, and ffmpeg calls FLAC in it an experiment.
+        Container::Mp4 if is_raw || codec == "flac" => Answer::Code("alac"),
+        Container::Mp4 if codec == "opus" => Answer::Copy,
         _ if matches!(codec, "aac" | "mp3" | "mp2" | "ac3" | "eac3" | "alac") => Answer::Copy,
         Container::Mov => Answer::Code("pcm_s24le"),
         Container::Mp4 => Answer::Code("aac"),

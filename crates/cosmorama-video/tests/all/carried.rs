@@ -393,6 +393,11 @@ fn what_cannot_be_copied_is_told() {
     let output = folder.path().join("a.webm");
     let written = write(&ffmpeg, &output, &settings(&info, None), 25).unwrap();
     assert!(written.notes.iter().any(|note| note.contains("libopus")), "{:?}", written.notes);
+    let flac = folder.path().join("flac.mkv");
+    run(&format!("{} -f lavfi -i sine=duration=1 -c:v libx264 -c:a flac", moving(64, 32, "25", 25)), &flac);
+    let output = folder.path().join("b.mp4");
+    write(&ffmpeg, &output, &settings(&ffmpeg.probe(&flac).unwrap(), None), 25).unwrap();
+    assert_eq!(ffmpeg.probe(&output).unwrap().others[0].codec, "alac");
 }
 
 /// Puts a box at the end of another one in a box of a file: `path` leads there. Of boxes with one name, the last is taken.
