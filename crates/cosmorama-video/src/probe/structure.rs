@@ -27,7 +27,8 @@ pub(super) fn cut(file: &mut File) -> Option<CutShort> {
         [b'O', b'g', b'g', b'S', ..] => end_of_pages(file, found)?,
         [b'n', b'u', b't', b'/', ..] => end_of_index(file, found)?,
         [0x1f, 7, 0, system, ..] if system & 0x3f == 0x3f => {
-            found.div_ceil(frame_of_dv(*system)) * frame_of_dv(*system)
+            let frame = frame_of_dv(file, *system)?;
+            found.div_ceil(frame) * frame
         }
         [0x30, 0x26, 0xb2, 0x75, ..] => size_in_asf(&beginning(file)?)?,
         [_, _, _, _, name @ .., _, _, _, _] if FIRST.contains(&name) => end_of_boxes(file, found)?,
@@ -99,7 +100,8 @@ fn size_in_asf(bytes: &[u8]) -> Option<u64> {
     (!is_broadcast).then_some(u64::from_le_bytes(*size))
 }
 
-/// Returns the end of the last page of an Ogg file (RFC 3533), or the least one where its header is not whole.
+/// Returns the end of the last page of an Ogg file (RFC 3533), or a greater length than the file's where its header is not whole, bytes follow, or
+/// it is not the last of its stream.
 fn end_of_pages(file: &mut File, length: u64) -> Option<u64> {
     const LONGEST: u64 = 27 + 255 + 255 * 255;
     let start = length.saturating_sub(LONGEST);
@@ -112,7 +114,9 @@ fn end_of_pages(file: &mut File, length: u64) -> Option<u64> {
         return Some(length + 1);
     };
     let content: u64 = segments.iter().copied().map(u64::from).sum();
-    Some(start + at as u64 + 27 + segments.len() as u64 + content)
+    let end = start + at as u64 + 27 + segments.len() as u64 + content;
+    let is_last = page[5] & 4 != 0;
+    Some(if end == length && !is_last { length + 1 } else { end.max(length + u64::from(end < length)) })
 }
 
 /// Returns the length of a NUT file that ends with an index, as ffmpeg always writes it unless it is told not to, or a greater one
@@ -129,9 +133,14 @@ fn end_of_index(file: &mut File, length: u64) -> Option<u64> {
     Some(if start_of(file, own) == Some(INDEX) { length } else { length + 1 })
 }
 
-/// Returns the bytes of a frame of DV, or a part of one of more data, by the mark of its system (IEC 61834-2, header section).
-fn frame_of_dv(system: u8) -> u64 {
-    if system & 0x80 == 0 { 120_000 } else { 144_000 }
+/// Returns the bytes of a frame of DV by the mark of its system, and of the second channel of 50 Mbit (IEC 61834-2, SMPTE 314M, header section).
+fn frame_of_dv(file: &mut File, system: u8) -> Option<u64> {
+    const SECOND: u8 = 0x08;
+    let channel = if system & 0x80 == 0 { 120_000 } else { 144_000 };
+    let mut next = [0; 2];
+    file.seek(SeekFrom::Start(channel)).ok()?;
+    let has_second = file.read_exact(&mut next).is_ok() && next[0] == 0x1f && next[1] & SECOND != 0;
+    Some(if has_second { 2 * channel } else { channel })
 }
 
 /// Returns the end of a Matroska file's segment; `None` if its size is not said.
@@ -209,6 +218,9 @@ mod tests {
         assert_eq!((found(&ogg), found(&ogg[..232])), (None, None));
         assert_eq!(found(&ogg[..ogg.len() - 1]), Some(CutShort { expected: 466, found: 465 }));
         assert_eq!(found(&ogg[..250]), Some(CutShort { expected: 251, found: 250 }));
+        assert_eq!(found(&ogg[..234]), Some(CutShort { expected: 235, found: 234 }));
+        let more_follow = [&ogg[..5], b"\0", &ogg[6..232]].concat();
+        assert_eq!(found(&more_follow), Some(CutShort { expected: 233, found: 232 }));
         let nut =
             [&b"nut/multimedia container\0NX\xdd\x67\x2f\x23\xe6\x4e"[..], &20_u64.to_be_bytes(), b"\0\0\0\0"].concat();
         assert_eq!(found(&nut), None);
@@ -216,6 +228,9 @@ mod tests {
         let dv = [&b"\x1f\x07\0\x3f"[..], &vec![0; 239_996]].concat();
         assert_eq!((found(&dv), found(&dv[..120_000])), (None, None));
         assert_eq!(found(&dv[..120_001]), Some(CutShort { expected: 240_000, found: 120_001 }));
+        let dv_50 = [&dv[..120_000], b"\x1f\x0f", &dv[..119_998]].concat();
+        assert_eq!(found(&dv_50), None);
+        assert_eq!(found(&dv_50[..130_000]), Some(CutShort { expected: 240_000, found: 130_000 }));
         assert_eq!(found(b"short"), None);
         assert_eq!(found(b"ffconcat version 1.0"), None);
     }

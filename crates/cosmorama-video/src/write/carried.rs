@@ -66,6 +66,8 @@ struct Way<'a> {
     container: Container,
     /// Beginning of subtitles.
     beginning: Beginning,
+    /// Seconds of the part.
+    length: Option<f64>,
     version: Version,
 }
 
@@ -87,9 +89,9 @@ impl Plan {
             let shorter = (0.25 / settings.rate().to_f64()).min(2.0 * INSTANT);
             plan.output.extend(["-t".to_owned(), format!("{:.6}", length - shorter)]);
         }
-        // Filters of the user's own stand in the place of the one that cuts sound off.
-        let has_filters = settings.arguments.iter().any(|word| word == "-af" || word.starts_with("-filter"));
-        plan.add_input(info, start, if has_filters { start } else { start - BEFORE });
+        // Sound that is filtered or coded by the user's own arguments is not cut off by ours.
+        let is_ours = !settings.arguments.iter().any(|word| filters_or_codes(word));
+        plan.add_input(info, start, if is_ours { start - BEFORE } else { start });
         let beginning = if !is_later {
             Beginning::Along
         } else if start < UNSEEN {
@@ -97,7 +99,8 @@ impl Plan {
         } else {
             Beginning::Part
         };
-        plan.add_streams(&Way { info, container, beginning, version });
+        let length = seconds.as_ref().map(|seconds| seconds.end - seconds.start);
+        plan.add_streams(&Way { info, container, beginning, length, version });
         plan.fields = container.has_boxes() && is_boxes(&info.container);
         // They are taken from an instant later on, without one that ends where the part begins.
         let has_earlier = is_later && info.chapters > 0;
@@ -145,7 +148,7 @@ impl Plan {
     }
 
     fn add(&mut self, stream: &OtherStream, way: &Way<'_>) {
-        let Way { info, container, beginning, version } = *way;
+        let Way { info, container, beginning, length, version } = *way;
         let name = format!("stream {} ({}, {})", stream.index, stream.kind.name(), stream.codec);
         let starts_with_part = stream.kind == StreamKind::Subtitle && beginning == Beginning::Part;
         let encoder = match answer(stream, container) {
@@ -182,9 +185,8 @@ impl Plan {
             Beginning::File if stream.kind == StreamKind::Subtitle => self.add_input(info, 0.0, 0.0),
             _ => 1,
         };
-        if starts_with_part && encoder != "copy" {
-            // With those that are shown before, ffmpeg would delay the pictures until then.
-            self.output.extend([format!("-bsf:{at}"), "noise=drop=lt(pts\\,0)".to_owned()]);
+        if stream.kind == StreamKind::Subtitle && version >= DROPS {
+            self.drop_beside(&at, starts_with_part && encoder != "copy", length);
         }
         let map = format!("{input}:{}", stream.index);
         self.output.extend(["-map".to_owned(), map, format!("-c:{at}"), encoder.to_owned()]);
@@ -200,6 +202,17 @@ impl Plan {
         self.labelled.push(labelled);
     }
 
+    /// Drops subtitles beside the part: of those that are shown before, ffmpeg would delay the pictures until then, and those behind would make
+    /// the film longer.
+    fn drop_beside(&mut self, at: &str, has_earlier: bool, length: Option<f64>) {
+        let before = has_earlier.then(|| "lt(pts\\,0)".to_owned());
+        let behind = length.map(|length| format!("gte(pts*tb\\,{length:.6})"));
+        let beside: Vec<String> = before.into_iter().chain(behind).collect();
+        if !beside.is_empty() {
+            self.output.extend([format!("-bsf:{at}"), format!("noise=drop={}", beside.join("+"))]);
+        }
+    }
+
     fn add_timecode(&mut self, settings: &WriteSettings) {
         let Some(Carried { info, seconds }) = &settings.source else { return };
         let Some(code) = &info.timecode else { return };
@@ -213,6 +226,11 @@ impl Plan {
                 .push(format!("the time code {} is left out: it is none of this frame rate", code.escape_debug())),
         }
     }
+}
+
+/// Returns whether an argument of the user's own filters streams, or chooses their coder.
+fn filters_or_codes(word: &str) -> bool {
+    word == "-c" || ["-c:", "-codec", "-acodec", "-af", "-filter"].iter().any(|option| word.starts_with(option))
 }
 
 fn answer(stream: &OtherStream, container: Container) -> Answer {

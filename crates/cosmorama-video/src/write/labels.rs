@@ -39,6 +39,25 @@ pub(super) struct Labelled {
     pub(super) labels: Labels,
 }
 
+/// Beginnings of the names of tags in which MXF and AVI name their parts, and the programs that wrote them.
+const OF_WRITERS: [&str; 12] = [
+    "application_platform",
+    "company_name",
+    "file_package_",
+    "generation_uid",
+    "material_package_",
+    "modification_date",
+    "operational_pattern_ul",
+    "product_",
+    "software",
+    "toolkit_",
+    "track_name",
+    "uid",
+];
+
+/// Roles that ffmpeg takes from MP4 along with others.
+const ALONG: [(&str, &str); 2] = [("captions", "hearing_impaired"), ("descriptions", "visual_impaired")];
+
 /// Bytes of the name of a handler in MOV, which are counted by one byte.
 const LONGEST_HANDLER: usize = 255;
 
@@ -80,19 +99,25 @@ impl Labelled {
         if let Some(title) = title.as_ref().filter(|title| found.title.as_ref() != Some(title)) {
             lost.push(format!("its title ({})", beginning(title)));
         }
-        lost.extend(roles.iter().filter(|role| !found.roles.contains(role)).map(|role| format!("its role ({role})")));
+        let is_along =
+            |role: &str| ALONG.iter().any(|(along, of)| *along == role && roles.iter().any(|other| other == of));
+        let roles = roles.iter().filter(|role| !found.roles.contains(role) && !is_along(role));
+        lost.extend(roles.map(|role| format!("its role ({role})")));
         lost.extend(lost_tags(tags, written).map(|names| format!("its tags ({names})")));
         (!lost.is_empty()).then(|| lost.join(", "))
     }
 }
 
-/// Returns the names of tags whose values are not among those that were written; `None` where all are.
+/// Returns the names of tags that are not among those that were written; `None` where all are.
 pub(super) fn lost_tags(tags: &[(String, String)], written: &Value) -> Option<String> {
-    let kept: Vec<&str> =
-        written["tags"].as_object().into_iter().flatten().filter_map(|(_, value)| value.as_str()).collect();
-    // Containers have names of their own for them.
-    let lost: Vec<&str> =
-        tags.iter().filter(|(_, value)| !kept.contains(&value.as_str())).map(|(name, _)| name.as_str()).collect();
+    let kept = || written["tags"].as_object().into_iter().flatten();
+    // Containers have names of their own for them, and ways to write places.
+    let is_kept = |name: &str, value: &str| {
+        kept().any(|(kept, text)| kept.eq_ignore_ascii_case(name) || text.as_str() == Some(value))
+    };
+    let is_of_writer = |name: &str| OF_WRITERS.iter().any(|beginning| name.to_ascii_lowercase().starts_with(beginning));
+    let lost = tags.iter().filter(|(name, value)| !is_kept(name, value) && !is_of_writer(name));
+    let lost: Vec<&str> = lost.map(|(name, _)| name.as_str()).collect();
     let mut names: Vec<String> = lost.iter().take(NAMED).map(|name| beginning(name)).collect();
     if lost.len() > NAMED {
         names.push(format!("{} more", lost.len() - NAMED));

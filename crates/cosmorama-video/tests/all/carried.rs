@@ -103,6 +103,43 @@ fn a_part_has_all_its_sound_where_it_is_coded_anew() {
     }
 }
 
+/// So is sound that the user's own arguments code anew, from wherever the part is.
+#[test]
+fn a_part_has_all_its_sound_where_the_user_codes_it_anew() {
+    let Some(ffmpeg) = ffmpeg() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let film = folder.path().join("film.mkv");
+    run(&format!("{} -f lavfi -i sine=duration=4 -c:v libx264 -c:a aac", moving(64, 32, "25", 100)), &film);
+    let info = ffmpeg.probe(&film).unwrap();
+    for arguments in [&["-c:a", "aac"][..], &["-acodec", "mp2", "-af", "volume=0.5"], &["-crf", "30"]] {
+        let path = folder.path().join("a.mp4");
+        let arguments = arguments.iter().map(|word| (*word).to_owned()).collect();
+        write(&ffmpeg, &path, &WriteSettings { arguments, ..settings(&info, Some(2.4..3.6)) }, 30).unwrap();
+        let lengths = probed(&path, "-select_streams a -show_entries packet=duration_time -of csv=p=0");
+        let seconds: f64 = lengths.split([',', '\n']).filter_map(|length| length.trim().parse::<f64>().ok()).sum();
+        assert!((seconds - 1.2).abs() < 0.12, "{seconds} s");
+    }
+}
+
+/// Subtitles far behind a part make it no longer.
+#[test]
+fn subtitles_behind_a_part_are_left_out() {
+    let Some(ffmpeg) = ffmpeg().filter(|ffmpeg| ffmpeg.version().major >= 5) else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let words = folder.path().join("words.srt");
+    std::fs::write(&words, format!("{SUBTITLES}\n3\n00:10:00,000 --> 00:10:01,000\nFar\n")).unwrap();
+    for (name, codec, output) in
+        [("film.mp4", "mov_text", "a.mp4"), ("film.mkv", "srt", "a.mkv"), ("film.mkv", "srt", "a.mp4")]
+    {
+        let film = folder.path().join(name);
+        run(&format!("{} -i {} -c:v libx264 -c:s {codec}", moving(64, 32, "25", 50), words.display()), &film);
+        let path = folder.path().join(output);
+        write(&ffmpeg, &path, &settings(&ffmpeg.probe(&film).unwrap(), Some(0.0..1.0)), 25).unwrap();
+        let seconds = probed(&path, "-show_entries format=duration -of csv=p=0");
+        assert!(seconds.trim().parse::<f64>().unwrap() < 2.0, "{name} to {output}: {seconds}");
+    }
+}
+
 /// Pictures of Matroska begin an instant after sound that is coded with a delay. Subtitles that the output cannot hold as they are become its own
 /// also then, and those of a part begin with it.
 #[test]
@@ -224,6 +261,13 @@ fn tags_go_along_or_are_told() {
         assert!(!expected.is_empty() || !told.contains("loses"), "{name}: {told}");
         let artist = probed(&path, "-show_entries format_tags=artist -of csv=p=0");
         assert_eq!(artist.trim(), "Somebody");
+    }
+    for (name, codecs) in [("a.mxf", "-c:v mpeg2video -c:a pcm_s16le"), ("a.avi", "-c:v mpeg4 -c:a mp3")] {
+        let film = folder.path().join(name);
+        run(&format!("{} -f lavfi -i sine=duration=1:sample_rate=48000 {codecs}", moving(64, 32, "25", 25)), &film);
+        let path = folder.path().join("own.mp4");
+        let written = write(&ffmpeg, &path, &settings(&ffmpeg.probe(&film).unwrap(), None), 25).unwrap();
+        assert!(!written.notes.iter().any(|note| note.contains("loses")), "{name}: {:?}", written.notes);
     }
     let own = ["-metadata:s:a:0", "language=fra"].map(str::to_owned).to_vec();
     let path = folder.path().join("own.mp4");
