@@ -61,6 +61,10 @@ const ALONG: [(&str, &str); 2] = [("captions", "hearing_impaired"), ("descriptio
 /// Bytes of the name of a handler in MOV, which are counted by one byte.
 const LONGEST_HANDLER: usize = 255;
 
+/// Bytes of a name with its value, and number of tags, that are passed on: arguments of a program have limits. What is not is told in the end.
+const LONGEST_VALUE: usize = 4096;
+const MOST_TAGS: usize = 100;
+
 /// Letters of a title, and names of tags, that a message repeats.
 const REPEATED: usize = 60;
 const NAMED: usize = 8;
@@ -73,8 +77,11 @@ impl Labelled {
         let title = title.as_ref().filter(|title| container != Container::Mov || title.len() <= LONGEST_HANDLER);
         let name = if container.has_boxes() { "handler_name" } else { "title" };
         let title = title.map(|title| format!("{name}={title}"));
-        let tags = tags.iter().map(|(name, value)| format!("{name}={value}"));
+        // Of other streams, which it copies, ffmpeg knows them.
+        let tags = tags.iter().filter(|_| self.kind == StreamKind::Video).take(MOST_TAGS);
+        let tags = tags.map(|(name, value)| format!("{name}={value}"));
         let metadata = language.into_iter().chain(title).chain(tags);
+        let metadata = metadata.filter(|value| value.len() <= LONGEST_VALUE && !value.contains('\0'));
         let mut arguments: Vec<String> = metadata.flat_map(|value| [format!("-metadata:s:{at}"), value]).collect();
         if self.kind != StreamKind::Attachment {
             let default = is_default.then_some(DEFAULT);

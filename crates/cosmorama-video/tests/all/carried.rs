@@ -262,6 +262,16 @@ fn tags_go_along_or_are_told() {
         let artist = probed(&path, "-show_entries format_tags=artist -of csv=p=0");
         assert_eq!(artist.trim(), "Somebody");
     }
+    // One that is longer than arguments of programs may be.
+    let tagged = folder.path().join("long.mkv");
+    let long = folder.path().join("long.txt");
+    std::fs::write(&long, format!(";FFMETADATA1\n[STREAM]\nlong={}\n", "x".repeat(200_000))).unwrap();
+    let way = "-map 0:v -map_metadata 1 -map_metadata:s:v:0 1:s:0 -c:v libx264";
+    run(&format!("{} -f ffmetadata -i {} {way}", moving(64, 32, "25", 25), long.display()), &tagged);
+    let path = folder.path().join("own.mkv");
+    let written = write(&ffmpeg, &path, &settings(&ffmpeg.probe(&tagged).unwrap(), None), 25).unwrap();
+    let is_told = written.notes.iter().any(|note| note.to_ascii_lowercase().contains("(long)"));
+    assert!(is_told, "{:?}", written.notes);
     for (name, codecs) in [("a.mxf", "-c:v mpeg2video -c:a pcm_s16le"), ("a.avi", "-c:v mpeg4 -c:a mp3")] {
         let film = folder.path().join(name);
         run(&format!("{} -f lavfi -i sine=duration=1:sample_rate=48000 {codecs}", moving(64, 32, "25", 25)), &film);
