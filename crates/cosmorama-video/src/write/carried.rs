@@ -91,7 +91,15 @@ impl Plan {
         }
         // Sound that is filtered or coded by the user's own arguments is not cut off by ours.
         let is_ours = !settings.arguments.iter().any(|word| filters_or_codes(word));
-        plan.add_input(info, start, if is_ours { start - BEFORE } else { start });
+        let seek = if !is_ours {
+            start
+        } else if info.container == "mpeg" {
+            // Program streams need not tell enough times to be found by.
+            0.0
+        } else {
+            start - BEFORE
+        };
+        plan.add_input(info, start, seek);
         let beginning = if !is_later {
             Beginning::Along
         } else if start < UNSEEN {
