@@ -17,20 +17,19 @@ pub struct Labels {
     pub tags: Vec<(String, String)>,
 }
 
-/// Beginnings of the names of tags that containers and their writers make of themselves, or that have places of their own.
-const OF_CONTAINERS: [&str; 18] = [
-    "_statistics",
+/// Beginnings of the names of Matroska's statistics, behind which a language may stand.
+const STATISTICS: [&str; 4] = ["_statistics", "bps", "duration", "number_of_"];
+
+/// Names of tags that containers and their writers make of themselves, or that have places of their own.
+const OF_CONTAINERS: [&str; 14] = [
     "alpha_mode",
-    "bps",
     "creation_time",
-    "duration",
     "encoder",
     "filename",
     "handler_name",
     "language",
     "mimetype",
     "name",
-    "number_of_",
     "rotate",
     "stereo_mode",
     "timecode",
@@ -66,7 +65,7 @@ fn is_no_role(disposition: &str) -> bool {
 
 fn is_of_container(name: &str) -> bool {
     let name = name.to_ascii_lowercase();
-    OF_CONTAINERS.iter().any(|beginning| name.starts_with(beginning))
+    OF_CONTAINERS.contains(&name.as_str()) || STATISTICS.iter().any(|beginning| name.starts_with(beginning))
 }
 
 /// Returns a title: that of Matroska, or the name of a handler that does not only say what it handles.

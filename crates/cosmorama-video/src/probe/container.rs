@@ -9,6 +9,9 @@ pub(crate) const GIF: &str = "gif";
 /// Name of FLV.
 pub(super) const FLV: &str = "flv";
 
+/// Name of MXF.
+pub(super) const MXF: &str = "mxf";
+
 /// Name of NUT.
 pub(super) const NUT: &str = "nut";
 

@@ -7,7 +7,7 @@ use std::time::Duration;
 use serde_json::Value;
 
 use super::beginning::Beginning;
-use super::container::{ASF, AVI, FLV, NUT, OGG, begins_anywhere, ends_with_its_file, is_boxes, is_matroska};
+use super::container::{ASF, AVI, FLV, MXF, NUT, OGG, begins_anywhere, ends_with_its_file, is_boxes, is_matroska};
 use super::first_frame::FirstFrame;
 use super::packets::CodedStream;
 use super::stream::{Stream, delay, is_statistic, ratio, text};
@@ -73,8 +73,13 @@ impl Ffmpeg {
         let stream = Stream::read(path, &streams[number]).map_err(unknown)?;
         let format = &document["format"];
         let others = streams.iter().enumerate().filter(|(index, _)| *index != number);
-        let others = others.map(|(_, stream)| other(stream)).collect::<Vec<_>>();
+        let mut others = others.map(|(_, stream)| other(stream)).collect::<Vec<_>>();
         let mut info = stream.into_info(path, container);
+        if container == MXF {
+            // They name its packages.
+            let labels = others.iter_mut().map(|other| &mut other.labels).chain([&mut info.labels]);
+            labels.for_each(|labels| labels.tags.clear());
+        }
         info.begin(beginning);
         info.chapters = document["chapters"].as_array().map_or(0, Vec::len);
         info.file_start = text(format, "start_time").and_then(|time| time.parse().ok()).unwrap_or(0.0);
@@ -300,10 +305,29 @@ fn timecode(video: &Value, streams: &[Value], format: &Value) -> Option<String> 
 /// Names that containers write for themselves.
 const OWN: [&str; 6] = ["major_brand", "minor_version", "compatible_brands", "encoder", "duration", "timecode"];
 
+/// Names by which MXF tells its parts, and the program that wrote it.
+const OF_MXF: [&str; 12] = [
+    "application_platform",
+    "company_name",
+    "generation_uid",
+    "material_package_umid",
+    "modification_date",
+    "operational_pattern_ul",
+    "product_name",
+    "product_uid",
+    "product_version",
+    "product_version_num",
+    "toolkit_version_num",
+    "uid",
+];
+
 fn metadata(format: &Value) -> Vec<(String, String)> {
+    let of_container: &[&str] = if text(format, "format_name") == Some(MXF) { &OF_MXF } else { &[] };
+    let is_own = |name: &str| OWN.iter().chain(of_container).any(|own| own.eq_ignore_ascii_case(name));
     let tags = format["tags"].as_object().into_iter().flatten();
     let texts = tags.filter_map(|(name, value)| Some((name.clone(), value.as_str()?.to_owned())));
-    texts.filter(|(name, _)| !OWN.iter().any(|own| own.eq_ignore_ascii_case(name))).collect()
+    // AVI calls ffmpeg's encoder software.
+    texts.filter(|(name, value)| !is_own(name) && !value.starts_with("Lavf")).collect()
 }
 
 fn announced_by_duration(info: &VideoInfo) -> Option<Announced> {

@@ -16,8 +16,6 @@ pub(super) struct Plan {
     pub(super) input: Vec<OsString>,
     /// Arguments of the output.
     pub(super) output: Vec<String>,
-    /// Number of streams of sound in the output.
-    pub(super) sounds: usize,
     /// Labels of the video and of the streams that go along.
     pub(super) labelled: Vec<Labelled>,
     /// Whether boxes about the sound go along: between MP4 and MOV.
@@ -134,7 +132,7 @@ impl Plan {
                 self.add(stream, way);
             }
         }
-        if beginning == Beginning::Part && self.labelled.iter().any(|stream| stream.kind == StreamKind::Subtitle) {
+        if beginning == Beginning::Part && self.count(StreamKind::Subtitle) > 0 {
             let note =
                 "subtitles begin with the part: those that are shown before are left out, even where they stay on";
             self.notes.push(note.to_owned());
@@ -188,7 +186,7 @@ impl Plan {
             StreamKind::Attachment => 't',
             _ => 's',
         };
-        let at = format!("{at}:{}", self.labelled.iter().filter(|other| other.kind == stream.kind).count());
+        let at = format!("{at}:{}", self.count(stream.kind));
         let input = match beginning {
             Beginning::File if stream.kind == StreamKind::Subtitle => self.add_input(info, 0.0, 0.0),
             _ => 1,
@@ -204,10 +202,18 @@ impl Plan {
         if matches!(encoder, "aac" | "libopus") {
             self.output.extend([format!("-b:{at}"), format!("{}k", 96 * stream.channels.clamp(1, 16))]);
         }
-        self.sounds += usize::from(stream.kind == StreamKind::Audio);
         let labelled = Labelled { name, kind: stream.kind, labels: stream.labels.clone() };
         self.output.extend(labelled.arguments(&at, container));
         self.labelled.push(labelled);
+    }
+
+    fn count(&self, kind: StreamKind) -> usize {
+        self.labelled.iter().filter(|stream| stream.kind == kind).count()
+    }
+
+    /// Returns the number of streams of sound in the output.
+    pub(super) fn sounds(&self) -> usize {
+        self.count(StreamKind::Audio)
     }
 
     /// Drops subtitles beside the part: of those that are shown before, ffmpeg would delay the pictures until then, and those behind would make

@@ -39,22 +39,6 @@ pub(super) struct Labelled {
     pub(super) labels: Labels,
 }
 
-/// Beginnings of the names of tags in which MXF and AVI name their parts, and the programs that wrote them.
-const OF_WRITERS: [&str; 12] = [
-    "application_platform",
-    "company_name",
-    "file_package_",
-    "generation_uid",
-    "material_package_",
-    "modification_date",
-    "operational_pattern_ul",
-    "product_",
-    "software",
-    "toolkit_",
-    "track_name",
-    "uid",
-];
-
 /// Roles that ffmpeg takes from MP4 along with others.
 const ALONG: [(&str, &str); 2] = [("captions", "hearing_impaired"), ("descriptions", "visual_impaired")];
 
@@ -122,8 +106,7 @@ pub(super) fn lost_tags(tags: &[(String, String)], written: &Value) -> Option<St
     let is_kept = |name: &str, value: &str| {
         kept().any(|(kept, text)| kept.eq_ignore_ascii_case(name) || text.as_str() == Some(value))
     };
-    let is_of_writer = |name: &str| OF_WRITERS.iter().any(|beginning| name.to_ascii_lowercase().starts_with(beginning));
-    let lost = tags.iter().filter(|(name, value)| !is_kept(name, value) && !is_of_writer(name));
+    let lost = tags.iter().filter(|(name, value)| !is_kept(name, value));
     let lost: Vec<&str> = lost.map(|(name, _)| name.as_str()).collect();
     let mut names: Vec<String> = lost.iter().take(NAMED).map(|name| beginning(name)).collect();
     if lost.len() > NAMED {

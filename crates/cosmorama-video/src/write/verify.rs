@@ -15,6 +15,8 @@ pub(super) struct Expected<'a> {
     pub(super) size: (usize, usize),
     /// Whether it must say that it is spherical.
     pub(super) is_spherical: bool,
+    /// Number of streams of sound that it must have; `None` where it may have fewer.
+    pub(super) sounds: Option<usize>,
     pub(super) container: Container,
     /// Streams that it should have, with their labels.
     pub(super) labelled: &'a [Labelled],
@@ -54,6 +56,10 @@ impl Expected<'_> {
         if (video["width"].as_u64(), video["height"].as_u64()) != (Some(width as u64), Some(height as u64)) {
             let found = format!("frames of {}x{}", video["width"], video["height"]);
             return Err(not(found, format!("those given are of {width}x{height}")));
+        }
+        let sounds = streams.iter().filter(|stream| stream["codec_type"] == "audio").count();
+        if let Some(expected) = self.sounds.filter(|expected| *expected != sounds) {
+            return Err(not(format!("{sounds} streams of sound"), format!("there should be {expected}")));
         }
         let mut sides = video["side_data_list"].as_array().into_iter().flatten();
         let is_spherical = sides.any(|data| data["side_data_type"] == "Spherical Mapping");

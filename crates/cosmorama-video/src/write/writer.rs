@@ -165,11 +165,14 @@ impl VideoWriter {
         self.plan.notes.extend(complaint.map(|text| format!("ffmpeg says{of}: {text}")));
         self.add_boxes()?;
         let is_ours = !self.settings.arguments.iter().any(|word| decides_what_goes_along(word));
+        let is_whole = self.settings.source.as_ref().is_none_or(|source| source.seconds.is_none());
         let metadata = self.settings.source.as_ref().map(|source| source.info.metadata.as_slice());
         let expected = Expected {
             frames: self.count,
             size: self.settings.size,
             is_spherical: self.settings.spatial.is_some_and(|tags| tags.projection.is_some()),
+            // Arguments of the user's own may leave sound out, and a part may be without.
+            sounds: (self.settings.arguments.is_empty() && is_whole).then(|| self.plan.sounds()),
             container: self.container,
             labelled: if is_ours { &self.plan.labelled } else { &[] },
             metadata: metadata.filter(|_| is_ours).unwrap_or_default(),
@@ -188,7 +191,7 @@ impl VideoWriter {
         if let Some(tags) = &self.settings.spatial {
             tags.write(written)?;
         }
-        let Some(source) = self.settings.source.as_ref().filter(|_| self.plan.fields && self.plan.sounds > 0) else {
+        let Some(source) = self.settings.source.as_ref().filter(|_| self.plan.fields && self.plan.sounds() > 0) else {
             return Ok(());
         };
         match sound_fields(&source.info.path) {
